@@ -519,6 +519,14 @@ std::string to_text(Number value) {
     }
 }
 
+/// A word of the input for an error message, at most 40 characters of it.
+inline std::string quoted(std::string_view word) {
+    std::string text(1, '\'');
+    text += word.substr(0, 40);
+    text += word.size() > 40 ? "...'" : "'";
+    return text;
+}
+
 template <arithmetic Number>
 [[noreturn]] void refuse(std::string_view argument, Number value, std::string_view expected) {
     raise(invalid_input(std::string(argument) + " is " + to_text(value) + ", expected " + std::string(expected)));
@@ -1244,8 +1252,8 @@ INSONIFY_ARITHMETIC_END
 // A kernel is a function object with `template <int N> INSONIFY_INLINE void run() const`, where N is the
 // number of 32-bit values that it processes at a time. Its arithmetic is the same in every lane at every N, and
 // products are never fused with sums, so all levels give the same bytes; N = 1 is scalar code, compiled where
-// INSONIFY_SIMD is 0. Kernels use AVX-512 only if they state their lane count there, `static constexpr int widest =
-// 16`, which is for those that gain more than a tenth: each copy costs compile time.
+// INSONIFY_SIMD is 0. Kernels use AVX-512 only if they state their lane count there, `static constexpr int avx512_lanes
+// = 16`, which is for those that gain more than a tenth: each copy costs compile time.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -1296,7 +1304,7 @@ void run_avx2(const Kernel& kernel) {
 template <class Kernel>
 INSONIFY_TARGET("avx512f,avx512bw,avx512dq,avx512vl")
 INSONIFY_NEVER_FUSED void run_avx512(const Kernel& kernel) {
-    kernel.template run<Kernel::widest>();
+    kernel.template run<Kernel::avx512_lanes>();
 }
 #endif
 
@@ -1305,7 +1313,7 @@ template <class Kernel>
 void dispatch(const Kernel& kernel, isa level) {
     if (level > best_isa()) level = best_isa();
 #if INSONIFY_DISPATCH
-    if constexpr (requires { Kernel::widest; }) {
+    if constexpr (requires { Kernel::avx512_lanes; }) {
         if (level == isa::avx512) return run_avx512(kernel);
     }
     if (level >= isa::avx2) return run_avx2(kernel);
@@ -1507,35 +1515,6 @@ INSONIFY_INLINE void unroll(const Body& body) {
     (std::make_integer_sequence<int, Count>{});
 }
 
-/// Gathers pairs of adjacent 32-bit values: lane k of `first` and of `second` are the two values at from(k).
-template <int N, class Lanes, class From>
-INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from) {
-#if INSONIFY_SIMD
-    if constexpr (N > 1) {
-        // Pairs 0 1 4 5 ... and 2 3 6 7 ...: so both shuffles stay within sixteen bytes, where they are cheap.
-        constexpr int half = N / 2, run = half < 2 ? half : 2;
-        lanes<std::int64_t, half> low, high;
-        const auto pair = [&](int k) INSONIFY_INLINE_LAMBDA {
-            std::int64_t bits;
-            std::memcpy(&bits, from(k), sizeof bits);
-            return bits;
-        };
-        gather<half>(low, [&](int k) INSONIFY_INLINE_LAMBDA { return pair(k / run * 2 * run + k % run); });
-        gather<half>(high, [&](int k) INSONIFY_INLINE_LAMBDA { return pair((k / run * 2 + 1) * run + k % run); });
-        [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-            constexpr auto at = [](int k) { return k / run % 2 * N + k / (2 * run) * 2 * run + k % run * 2; };
-            first = __builtin_shufflevector(Lanes(low), Lanes(high), at(I)...);
-            second = __builtin_shufflevector(Lanes(low), Lanes(high), (at(I) + 1)...);
-        }
-        (std::make_integer_sequence<int, N>{});
-    } else
-#endif
-    {
-        std::memcpy(&first, from(0), sizeof first);
-        std::memcpy(&second, from(0) + 1, sizeof second);
-    }
-}
-
 #if INSONIFY_SIMD
 /// Lane i is lane `from(i)` of the concatenation of two vectors.
 template <int N, class From, class Into, class Lanes>
@@ -1545,63 +1524,7 @@ INSONIFY_INLINE void shuffle(Into& into, const Lanes& first, const Lanes& second
     }
     (std::make_integer_sequence<int, N>{});
 }
-
-/// Loads four values from each of N / 4 addresses.
-template <int N, class From>
-INSONIFY_INLINE void load_fours(lanes<float, N>& into, const From& from) {
-    if constexpr (N == 4) {
-        load(into, from(0));
-    } else {
-        lanes<float, N / 2> low, high;
-        load_fours<N / 2>(low, from);
-        load_fours<N / 2>(high, [&](int i) { return from(N / 8 + i); });
-        shuffle<N>(into, low, high, [](int i) { return i; });
-    }
-}
-
-/// Within every four lanes, lane i of row[k] becomes lane k of into[i]; for N of 4, 8 or 16.
-template <int N>
-INSONIFY_INLINE void transpose_fours(lanes<float, N>* into, const lanes<float, N> (&row)[4]) {
-    lanes<float, N> low[2], high[2];
-    unroll<2>([&](int k) INSONIFY_INLINE_LAMBDA {
-        const auto &a = row[2 * k], &b = row[2 * k + 1];
-        shuffle<N>(low[k], a, b, [](int i) { return i % 2 * N + i / 4 * 4 + i % 4 / 2; });
-        shuffle<N>(high[k], a, b, [](int i) { return i % 2 * N + i / 4 * 4 + i % 4 / 2 + 2; });
-    });
-    unroll<2>([&](int k) INSONIFY_INLINE_LAMBDA {
-        const auto &a = k == 0 ? low[0] : high[0], &b = k == 0 ? low[1] : high[1];
-        shuffle<N>(into[2 * k], a, b, [](int i) { return i % 4 / 2 * N + i / 4 * 4 + i % 2; });
-        shuffle<N>(into[2 * k + 1], a, b, [](int i) { return i % 4 / 2 * N + i / 4 * 4 + i % 2 + 2; });
-    });
-}
 #endif
-
-#if INSONIFY_SIMD
-/// Transposes four consecutive rows of three floats.
-INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const float* rows) {
-    lanes<float, 4> a, b, c;  // xyzx yzxy zxyz
-    load(a, rows), load(b, rows + 4), load(c, rows + 8);
-    const lanes<float, 4> xy = __builtin_shufflevector(b, c, 2, 5, 3, 6),
-                          yz = __builtin_shufflevector(a, b, 1, 4, 2, 5);
-    into[0] = __builtin_shufflevector(a, xy, 0, 3, 4, 5);
-    into[1] = __builtin_shufflevector(yz, xy, 0, 1, 6, 7);
-    into[2] = __builtin_shufflevector(yz, c, 2, 3, 4, 7);
-}
-#endif
-
-/// Transposes N rows of four floats: lane k of into[i] is rows(k)[i]; N is 1, 4, 8 or 16.
-template <int N, class Rows>
-INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
-#if INSONIFY_SIMD
-    if constexpr (N > 1) {
-        // Groups of four lanes are transposed independently.
-        lanes<float, N> row[4];
-        unroll<4>([&](int k) INSONIFY_INLINE_LAMBDA { load_fours<N>(row[k], [&](int i) { return rows(k + 4 * i); }); });
-        transpose_fours<N>(into, row);
-    } else
-#endif
-        std::memcpy(into, rows(0), 4 * sizeof(float));
-}
 
 /// 0, 1, ... N - 1.
 template <class T, int N>
@@ -1630,6 +1553,10 @@ inline namespace INSONIFY_ABI {
 /// What a gray file or screen stores for a pixel.
 template <class T>
 concept pixel_code = std::same_as<T, std::uint8_t> || std::same_as<T, std::uint16_t>;
+
+/// Pixel types with histograms: floats in [0, 1] and codes.
+template <class T>
+concept countable_pixel = std::same_as<T, float> || pixel_code<T>;
 
 inline namespace INSONIFY_FLAGS {
 
@@ -1679,7 +1606,7 @@ INSONIFY_INLINE void store_codes(Code* to, const lanes<std::int32_t, N>& code) {
 /// quantize, several pixels at a time.
 template <class Code>
 struct quantize_kernel {
-    static constexpr int widest = 16;
+    static constexpr int avx512_lanes = 16;
 
     const float* from;
     Code* to;
@@ -1900,6 +1827,106 @@ INSONIFY_INLINE void square_root(lanes<double, N>& into, const lanes<double, N>&
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/core/simd/transpose.hpp ----------------------------------------------------------
+// Loads rows of two, three or four values and transposes them into lanes.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// Gathers pairs of adjacent 32-bit values: lane k of `first` and of `second` are the two values at from(k).
+template <int N, class Lanes, class From>
+INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from) {
+#if INSONIFY_SIMD
+    if constexpr (N > 1) {
+        // Pairs 0 1 4 5 ... and 2 3 6 7 ...: so both shuffles stay within sixteen bytes, where they are cheap.
+        constexpr int half = N / 2, run = half < 2 ? half : 2;
+        lanes<std::int64_t, half> low, high;
+        const auto pair = [&](int k) INSONIFY_INLINE_LAMBDA {
+            std::int64_t bits;
+            std::memcpy(&bits, from(k), sizeof bits);
+            return bits;
+        };
+        gather<half>(low, [&](int k) INSONIFY_INLINE_LAMBDA { return pair(k / run * 2 * run + k % run); });
+        gather<half>(high, [&](int k) INSONIFY_INLINE_LAMBDA { return pair((k / run * 2 + 1) * run + k % run); });
+        [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+            constexpr auto at = [](int k) { return k / run % 2 * N + k / (2 * run) * 2 * run + k % run * 2; };
+            first = __builtin_shufflevector(Lanes(low), Lanes(high), at(I)...);
+            second = __builtin_shufflevector(Lanes(low), Lanes(high), (at(I) + 1)...);
+        }
+        (std::make_integer_sequence<int, N>{});
+    } else
+#endif
+    {
+        std::memcpy(&first, from(0), sizeof first);
+        std::memcpy(&second, from(0) + 1, sizeof second);
+    }
+}
+
+#if INSONIFY_SIMD
+/// Loads four values from each of N / 4 addresses.
+template <int N, class From>
+INSONIFY_INLINE void load_fours(lanes<float, N>& into, const From& from) {
+    if constexpr (N == 4) {
+        load(into, from(0));
+    } else {
+        lanes<float, N / 2> low, high;
+        load_fours<N / 2>(low, from);
+        load_fours<N / 2>(high, [&](int i) { return from(N / 8 + i); });
+        shuffle<N>(into, low, high, [](int i) { return i; });
+    }
+}
+
+/// Within every four lanes, lane i of row[k] becomes lane k of into[i]; for N of 4, 8 or 16.
+template <int N>
+INSONIFY_INLINE void transpose_fours(lanes<float, N>* into, const lanes<float, N> (&row)[4]) {
+    lanes<float, N> low[2], high[2];
+    unroll<2>([&](int k) INSONIFY_INLINE_LAMBDA {
+        const auto &a = row[2 * k], &b = row[2 * k + 1];
+        shuffle<N>(low[k], a, b, [](int i) { return i % 2 * N + i / 4 * 4 + i % 4 / 2; });
+        shuffle<N>(high[k], a, b, [](int i) { return i % 2 * N + i / 4 * 4 + i % 4 / 2 + 2; });
+    });
+    unroll<2>([&](int k) INSONIFY_INLINE_LAMBDA {
+        const auto &a = k == 0 ? low[0] : high[0], &b = k == 0 ? low[1] : high[1];
+        shuffle<N>(into[2 * k], a, b, [](int i) { return i % 4 / 2 * N + i / 4 * 4 + i % 2; });
+        shuffle<N>(into[2 * k + 1], a, b, [](int i) { return i % 4 / 2 * N + i / 4 * 4 + i % 2 + 2; });
+    });
+}
+
+/// Transposes four consecutive rows of three floats.
+INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const float* rows) {
+    lanes<float, 4> a, b, c;  // xyzx yzxy zxyz
+    load(a, rows), load(b, rows + 4), load(c, rows + 8);
+    const lanes<float, 4> xy = __builtin_shufflevector(b, c, 2, 5, 3, 6),
+                          yz = __builtin_shufflevector(a, b, 1, 4, 2, 5);
+    into[0] = __builtin_shufflevector(a, xy, 0, 3, 4, 5);
+    into[1] = __builtin_shufflevector(yz, xy, 0, 1, 6, 7);
+    into[2] = __builtin_shufflevector(yz, c, 2, 3, 4, 7);
+}
+#endif
+
+/// Transposes N rows of four floats: lane k of into[i] is rows(k)[i]; N is 1, 4, 8 or 16.
+template <int N, class Rows>
+INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
+#if INSONIFY_SIMD
+    if constexpr (N > 1) {
+        // Groups of four lanes are transposed independently.
+        lanes<float, N> row[4];
+        unroll<4>([&](int k) INSONIFY_INLINE_LAMBDA { load_fours<N>(row[k], [&](int i) { return rows(k + 4 * i); }); });
+        transpose_fours<N>(into, row);
+    } else
+#endif
+        std::memcpy(into, rows(0), 4 * sizeof(float));
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/core/simd/random_lanes.hpp -------------------------------------------------------
 // SIMD versions of random.hpp: Philox blocks, uniform and normal draws, as doubles and as floats.
 //
@@ -2101,7 +2128,10 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/core/random.hpp ------------------------------------------------------------------
 // Counter-based random numbers: a number is a pure function of (seed, stream, counter).
 //
-// Noise counted by pixel or world cell does not depend on tiling, cropping, threads or the order of frames.
+// Noise counted by pixel or world cell does not depend on tiling, cropping, threads or the order of frames:
+//
+//     const philox_key key = stream_key(seed, 17);                                     // 17: any number of your own
+//     const double u = uniform_open(philox4x32({x, y, frame, 0}, key)[0]);  // x, y, frame: std::uint32_t
 //
 // Based on: John K. Salmon, Mark A. Moraes, Ron O. Dror, David E. Shaw. Parallel Random Numbers: As Easy as 1, 2, 3.
 // SC11, 2011 (Philox4x32-10; checked against the known answers of Random123).
@@ -2111,7 +2141,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What random words are a function of, beside the key.
+/// Input of philox4x32 beside the key: pixel, cell or sample numbers.
 using philox_counter = std::array<std::uint32_t, 4>;
 /// The key of a stream of random words, from `stream_key`.
 using philox_key = std::array<std::uint32_t, 2>;
@@ -2133,7 +2163,7 @@ constexpr philox_counter philox4x32(philox_counter counter, philox_key key) {
 
 /// The key of a stream: draws of different streams are independent under one seed.
 constexpr philox_key stream_key(std::uint64_t seed, std::uint32_t stream) {
-    // A whole block is spent on mixing, so that neighbouring seeds and streams share no key word.
+    // Mixed by a whole block, so that adjacent seeds and streams share no key word.
     const philox_counter mixed = philox4x32(
         {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32), stream, 0x696E736Fu}, {0, 0});
     return {mixed[0], mixed[1]};
@@ -2888,7 +2918,7 @@ struct unit_draws {
 /// The draws of a run of a row; four pixels in a row share a block of Philox.
 template <class Draws>
 struct draw_kernel {
-    static constexpr int widest = 16;
+    static constexpr int avx512_lanes = 16;
 
     float* into;
     int count;
@@ -3727,57 +3757,16 @@ struct to_gray {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/filter/histogram.hpp -------------------------------------------------------------
-// Histograms of equal bins, and MATLAB's two filters on them: equalize and match.
-//
-// NaN is not counted and stays NaN. An image of NaN alone passes through. A constant image takes one level, that of its
-// rank: the wanted level at which the cumulative share reaches one half (or 1 at level 0 and the last, by MATLAB's
-// rule).
-//
-// Based on: MathWorks. Image Processing Toolbox, imhist, histeq, imhistmatch (64 bins, 256 source levels, 65536 for
-// codes of 16 bits).
+// ------------ insonify/filter/detail/bin_counters.hpp ---------------------------------------------------
+// Counts the pixels of an image by bin, in bands that executors run in parallel.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-
-/// Pixel counts by level. Level k of n counts the values nearest to k / (n - 1), ties up; values outside [0, 1] count
-/// at the ends. Histograms of many images add up to that of a data set:
-///
-///     in::histogram all = in::histogram_of(first);
-///     all += in::histogram_of(second);
-///     const auto look = in::match_binned(all);
-struct histogram {
-    std::vector<std::uint64_t> counts;
-
-    INSONIFY_TAGGED std::uint64_t total() const {
-        std::uint64_t sum = 0;
-        for (const std::uint64_t count : counts) sum += count;
-        return sum;
-    }
-
-    /// @throws invalid_input for another number of bins
-    INSONIFY_TAGGED histogram& operator+=(const histogram& other) {
-        detail::require(other.counts.size() == counts.size(), "bins of the histogram to add", other.counts.size(),
-                        "those of the sum");
-        for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
-        return *this;
-    }
-
-    friend bool operator==(const histogram&, const histogram&) = default;
-};
-
-/// Pixel types that histograms count: floats in [0, 1] and codes.
-template <class T>
-concept countable_pixel = std::same_as<T, float> || pixel_code<T>;
-
 namespace detail::inline INSONIFY_FLAGS {
 
-inline void require_bins(const char* name, int bins) {
-    require(bins >= 2 && bins <= 65536, name, bins, "2 to 65536");
-}
-
+/// The bin of a value: the nearest level of `bins` equidistant ones, ties up.
 constexpr std::size_t bin_of(float value, int bins) {
     const double scale = bins - 1;
     if (!(value > 0)) return 0;
@@ -3823,8 +3812,8 @@ inline int count_nan(const float* values, int count) {
 template <pixel_code Code>
 class code_counter {
   public:
-    /// Fewer pixels cost more to merge than to count.
-    static constexpr std::size_t least_pixels = sizeof(Code) == 1 ? 1 << 16 : 1 << 20;
+    /// Bands of fewer pixels take longer to merge than to count.
+    static constexpr std::size_t min_pixels = sizeof(Code) == 1 ? 1 << 16 : 1 << 20;
 
     code_counter() : counts_(tables * levels) {}
 
@@ -3850,11 +3839,11 @@ class code_counter {
         counts_[0] -= static_cast<std::uint32_t>(count_nan(values, count));
     }
 
-    void add_to(histogram& sum) const {
+    void add_to(std::span<std::uint64_t> sums) const {
         for (std::size_t i = 0; i < levels; ++i) {
-            std::uint32_t count = 0;  // sums wrap correctly: below 2^32 pixels
+            std::uint32_t count = 0;  // wraps correctly: below 2^32 pixels
             for (std::size_t table = 0; table < tables; ++table) count += counts_[table * levels + i];
-            sum.counts[i] += count;
+            sums[i] += count;
         }
     }
 
@@ -3868,7 +3857,7 @@ class code_counter {
 template <class Pixel>
 class bin_counter {
   public:
-    static constexpr std::size_t least_pixels = 1 << 20;
+    static constexpr std::size_t min_pixels = 1 << 20;
 
     explicit bin_counter(int bins) : bins_(bins), counts_(static_cast<std::size_t>(bins)) {}
 
@@ -3876,8 +3865,8 @@ class bin_counter {
         for (int i = 0; i < count; ++i)
             if (pixels[i] == pixels[i]) ++counts_[bin_of(pixels[i], bins_)];
     }
-    void add_to(histogram& sum) const {
-        for (std::size_t i = 0; i < counts_.size(); ++i) sum.counts[i] += counts_[i];
+    void add_to(std::span<std::uint64_t> sums) const {
+        for (std::size_t i = 0; i < counts_.size(); ++i) sums[i] += counts_[i];
     }
 
   private:
@@ -3885,16 +3874,16 @@ class bin_counter {
     std::vector<std::uint32_t> counts_;
 };
 
-/// Counts bands of an image with counters made by `make()`, and adds them up.
+/// Counts bands of an image, each with a counter of its own from `make()`, and adds them up.
 template <class Pixel, executor E, class Make>
-histogram count_parts(image_view<const Pixel> source, int bins, E& ex, const Make& make) {
+std::vector<std::uint64_t> count_bands(image_view<const Pixel> source, int bins, E& ex, const Make& make) {
     using counter = decltype(make());
     // About 16 bands, each below 2^31 pixels.
     const std::size_t rows = static_cast<std::size_t>(source.height());
     const auto width = static_cast<std::size_t>((std::max)(source.width(), 1));
-    const std::size_t most = (std::size_t{1} << 31) / width, least = counter::least_pixels / width + 1;
-    const std::size_t grain = (std::max)((std::min)(rows / 16 + 1, most), least);
-    std::vector<histogram> sums((rows + grain - 1) / grain);
+    const std::size_t max_rows = (std::size_t{1} << 31) / width, min_rows = counter::min_pixels / width + 1;
+    const std::size_t grain = (std::max)((std::min)(rows / 16 + 1, max_rows), min_rows);
+    std::vector<std::vector<std::uint64_t>> bands((rows + grain - 1) / grain);
     bulk_ranges(ex, rows, grain, [&](std::size_t first, std::size_t last) {
         counter own = make();
         for (std::size_t y = first; y < last; ++y) {
@@ -3902,46 +3891,34 @@ histogram count_parts(image_view<const Pixel> source, int bins, E& ex, const Mak
             for (int x = 0; x < source.width(); x += run_length)
                 own.add(row.data() + x, (std::min)(run_length, source.width() - x));
         }
-        histogram& sum = sums[first / grain];
-        sum.counts.resize(static_cast<std::size_t>(bins));
-        own.add_to(sum);
+        std::vector<std::uint64_t>& band = bands[first / grain];
+        band.resize(static_cast<std::size_t>(bins));
+        own.add_to(band);
     });
-    histogram result{std::vector<std::uint64_t>(static_cast<std::size_t>(bins))};
-    for (const histogram& sum : sums) result += sum;
-    return result;
+    std::vector<std::uint64_t> sums(static_cast<std::size_t>(bins));
+    for (const std::vector<std::uint64_t>& band : bands)
+        for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += band[i];
+    return sums;
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
-inline namespace INSONIFY_FLAGS {
+INSONIFY_ARITHMETIC_END
 
-/// MATLAB's imhist. Pixels are floats in [0, 1], of which NaN is not counted, or codes that mean code / 255 or / 65535.
-/// @throws invalid_input for bins outside 2 to 65536
-template <countable_pixel Pixel, executor_argument E = serial_executor>
-histogram histogram_of(image_view<const Pixel> source, int bins = 256, E&& ex = {}) {
-    detail::require_bins("bins", bins);
-    constexpr bool narrow = std::same_as<Pixel, std::uint8_t>, wide = std::same_as<Pixel, std::uint16_t>;
-    if constexpr (!wide) {
-        if (bins == 256)
-            return detail::count_parts(source, bins, ex, [] { return detail::code_counter<std::uint8_t>(); });
-    }
-    if constexpr (!narrow) {
-        if (bins == 65536)
-            return detail::count_parts(source, bins, ex, [] { return detail::code_counter<std::uint16_t>(); });
-    }
-    return detail::count_parts(source, bins, ex, [bins] { return detail::bin_counter<Pixel>(bins); });
-}
-/// The same of an image.
-template <countable_pixel Pixel, executor_argument E = serial_executor>
-histogram histogram_of(const image<Pixel>& source, int bins = 256, E&& ex = {}) {
-    return histogram_of(source.view(), bins, ex);
-}
+// ------------ insonify/filter/detail/level_map.hpp ------------------------------------------------------
+// Maps pixel levels to values: the lookup table behind histogram equalization and matching.
 
-}  // namespace INSONIFY_FLAGS
+#include <numeric>
 
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Number of levels that a source is counted by.
+/// Number of levels by which pixels are mapped.
 template <class Pixel>
 inline constexpr int source_levels = std::same_as<Pixel, std::uint16_t> ? 65536 : 256;
 
@@ -3984,22 +3961,25 @@ class level_map {
 /// The map of histeq: each source level goes to the first level of `wanted` whose cumulative share reaches the
 /// source's, less half of the level's own share except at the first and the last level.
 template <class Pixel>
-level_map<Pixel> map_levels(const histogram& source, const histogram& wanted) {
-    const auto source_total = static_cast<double>((std::max)(source.total(), std::uint64_t{1}));
-    const auto wanted_total = static_cast<double>(wanted.total());
+level_map<Pixel> map_levels(std::span<const std::uint64_t> source, std::span<const std::uint64_t> wanted) {
+    const auto total = [](std::span<const std::uint64_t> counts) {
+        return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+    };
+    const auto source_total = static_cast<double>((std::max)(total(source), std::uint64_t{1}));
+    const auto wanted_total = static_cast<double>(total(wanted));
     constexpr double tolerance = 0x1p-26;
-    const std::size_t levels = source.counts.size();
+    const std::size_t levels = source.size();
     std::vector<Pixel> values(levels);
-    std::uint64_t below = 0, reached = wanted.counts[0];
+    std::uint64_t below = 0, reached = wanted[0];
     std::size_t target = 0;
     for (std::size_t level = 0; level < levels; ++level) {
-        below += source.counts[level];
+        below += source[level];
         const bool inner = level > 0 && level + 1 < levels;
-        const double share = static_cast<double>(below) - (inner ? 0.5 * static_cast<double>(source.counts[level]) : 0);
+        const double share = static_cast<double>(below) - (inner ? 0.5 * static_cast<double>(source[level]) : 0);
         while (static_cast<double>(reached) / wanted_total < share / source_total - tolerance) {
-            reached += wanted.counts[++target];
+            reached += wanted[++target];
         }
-        const double value = static_cast<double>(target) / static_cast<double>(wanted.counts.size() - 1);
+        const double value = static_cast<double>(target) / static_cast<double>(wanted.size() - 1);
         if constexpr (std::is_same_v<Pixel, float>) {
             values[level] = static_cast<float>(value);
         } else {
@@ -4010,6 +3990,84 @@ level_map<Pixel> map_levels(const histogram& source, const histogram& wanted) {
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/filter/histogram.hpp -------------------------------------------------------------
+// Histograms with bins of equal width, and two filters of MATLAB's: histogram equalization and matching.
+//
+// NaN is not counted and stays NaN. A constant image becomes one level: that at which the cumulative share of the
+// wanted histogram reaches one half, or 1 for a source at level 0 or the last level, by MATLAB's rule.
+//
+// Based on: MathWorks. Image Processing Toolbox, imhist, histeq, imhistmatch (64 bins, 256 source levels, 65536 for
+// codes of 16 bits).
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// Pixel counts by level. Level k of n counts the values nearest to k / (n - 1), ties up; values outside [0, 1] count
+/// at the ends. Histograms of many images add up to that of a data set:
+///
+///     in::histogram all = in::histogram_of(first);
+///     all += in::histogram_of(second);
+///     const auto look = in::match_binned(all);
+struct histogram {
+    std::vector<std::uint64_t> counts;
+
+    INSONIFY_TAGGED std::uint64_t total() const {
+        std::uint64_t sum = 0;
+        for (const std::uint64_t count : counts) sum += count;
+        return sum;
+    }
+
+    /// @throws invalid_input for another number of bins
+    INSONIFY_TAGGED histogram& operator+=(const histogram& other) {
+        detail::require(other.counts.size() == counts.size(), "bins of the histogram to add", other.counts.size(),
+                        "those of the sum");
+        for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
+        return *this;
+    }
+
+    friend bool operator==(const histogram&, const histogram&) = default;
+};
+
+namespace detail::inline INSONIFY_FLAGS {
+
+inline void require_bins(const char* name, int bins) {
+    require(bins >= 2 && bins <= 65536, name, bins, "2 to 65536");
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
+
+/// MATLAB's imhist. Pixels are floats in [0, 1], of which NaN is not counted, or codes that mean code / 255 or / 65535.
+/// @throws invalid_input for bins outside 2 to 65536
+template <countable_pixel Pixel, executor_argument E = serial_executor>
+histogram histogram_of(image_view<const Pixel> source, int bins = 256, E&& ex = {}) {
+    detail::require_bins("bins", bins);
+    constexpr bool narrow = std::same_as<Pixel, std::uint8_t>, wide = std::same_as<Pixel, std::uint16_t>;
+    if constexpr (!wide) {
+        if (bins == 256)
+            return {detail::count_bands(source, bins, ex, [] { return detail::code_counter<std::uint8_t>(); })};
+    }
+    if constexpr (!narrow) {
+        if (bins == 65536)
+            return {detail::count_bands(source, bins, ex, [] { return detail::code_counter<std::uint16_t>(); })};
+    }
+    return {detail::count_bands(source, bins, ex, [bins] { return detail::bin_counter<Pixel>(bins); })};
+}
+/// The same of an image.
+template <countable_pixel Pixel, executor_argument E = serial_executor>
+histogram histogram_of(const image<Pixel>& source, int bins = 256, E&& ex = {}) {
+    return histogram_of(source.view(), bins, ex);
+}
+
+}  // namespace INSONIFY_FLAGS
 
 /// Spreads the values evenly over [0, 1]. MATLAB: histeq(I, levels).
 struct equalize {
@@ -4021,8 +4079,8 @@ struct equalize {
     template <countable_pixel Pixel, executor_argument E = serial_executor>
     INSONIFY_MEMBER detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {
         detail::require_bins("equalize.levels", levels);
-        const histogram flat{std::vector<std::uint64_t>(static_cast<std::size_t>(levels), 1)};
-        return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex), flat);
+        const std::vector<std::uint64_t> flat(static_cast<std::size_t>(levels), 1);
+        return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex).counts, flat);
     }
 };
 
@@ -4050,7 +4108,7 @@ class match_binned {
 
     template <countable_pixel Pixel, executor_argument E = serial_executor>
     INSONIFY_MEMBER detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {
-        return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex), wanted_);
+        return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex).counts, wanted_.counts);
     }
 
   private:
@@ -4563,31 +4621,15 @@ void run_pass(image_view<const From> from, image_view<To> to, const Pass& pass, 
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/filter/pipe.hpp ------------------------------------------------------------------
-// Filter pipes: `image | f` applies a filter, `f | g` composes a chain; `apply` takes an executor, `apply_into` and
-// `apply_in_place` the memory of the result.
-//
-// Adjacent point-wise stages run as one pass over the image. A measured stage reads the finished image of the stages
-// before it and starts the next pass (filter/concept.hpp defines both kinds).
-//
-// Lambdas and users' classes are filters as they are. One side of `f | g` must declare `is_filter`, as the library's
-// filters do, or be a chain; `filter_chain<>{} | f | g` composes others.
-
-#include <tuple>
+// ------------ insonify/filter/detail/run_stages.hpp -----------------------------------------------------
+// Runs the stages of a filter chain: fuses adjacent point-wise stages into one pass over the image, and starts a new
+// pass at each measured stage, which reads the finished image.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-
 namespace detail::inline INSONIFY_FLAGS {
-
-template <class T>
-inline constexpr bool is_image = false;
-template <class T>
-inline constexpr bool is_image<image<T>> = true;
-template <class T>
-inline constexpr bool is_image<image_view<T>> = true;
 
 /// A stage that is itself a pixel function. It outlives the pass.
 template <class F>
@@ -4699,11 +4741,11 @@ struct run_context {
 };
 
 template <class T>
-image_view<const T> look_at(const image<T>& source) {
+image_view<const T> read_only(const image<T>& source) {
     return source;
 }
 template <class T>
-image_view<const T> look_at(image_view<T> source) {
+image_view<const T> read_only(image_view<T> source) {
     return source;
 }
 
@@ -4716,19 +4758,14 @@ auto materialize(Source&& source, const Pass& pass, E& ex, pixel_origin origin) 
     if constexpr (std::is_same_v<Pass, untouched>) {
         return image<from>(std::forward<Source>(source));
     } else if constexpr (owned && std::is_same_v<from, to>) {
-        run_pass(look_at(source), source.view(), pass, ex, origin);
+        run_pass(read_only(source), source.view(), pass, ex, origin);
         return std::move(source);
     } else {
         image<to> out(source.width(), source.height(), uninitialized{}, memory_of(ex));
-        run_pass(look_at(source), out.view(), pass, ex, origin);
+        run_pass(read_only(source), out.view(), pass, ex, origin);
         return out;
     }
 }
-
-template <class F>
-concept library_filter = requires {
-    typename std::remove_cvref_t<F>::is_filter;
-};
 
 /// Runs the stages on `source` after `pass`, which has not run yet.
 template <class Source, class Pass, class E>
@@ -4740,7 +4777,7 @@ void run_stages(const Source& source, const Pass& pass, const run_context<E, int
     const image_view<To> target = run.sink.target;
     require(source.width() == target.width(), "to.width()", target.width(), "that of the result");
     require(source.height() == target.height(), "to.height()", target.height(), "that of the result");
-    run_pass(look_at(source), target, pass, run.ex, run.origin);
+    run_pass(read_only(source), target, pass, run.ex, run.origin);
 }
 template <class Source, class Pass, class E, class Sink, class F, class... Rest>
 auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& run, const F& stage,
@@ -4755,10 +4792,10 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
                               run, rest...);
         }
     } else if constexpr (clean) {
-        return run_stages(std::forward<Source>(source), make_pass(stage, look_at(source), run.ex), run, rest...);
+        return run_stages(std::forward<Source>(source), make_pass(stage, read_only(source), run.ex), run, rest...);
     } else if constexpr (measured_filter<F, pixel>) {
         image<pixel> seen = materialize(std::forward<Source>(source), pass, run.ex, run.origin);
-        const auto next = make_pass(stage, look_at(seen), run.ex);
+        const auto next = make_pass(stage, read_only(seen), run.ex);
         return run_stages(std::move(seen), next, run, rest...);
     } else {
         auto next = make_pass(stage, image_view<const pixel>{}, run.ex);
@@ -4768,6 +4805,27 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/filter/pipe.hpp ------------------------------------------------------------------
+// Filter pipes: `image | f` applies a filter, `f | g` composes a chain; `apply` takes an executor, `apply_into` and
+// `apply_in_place` the memory of the result.
+//
+// Adjacent point-wise stages run as one pass over the image. A measured stage reads the finished image of the stages
+// before it and starts the next pass (filter/concept.hpp defines both kinds).
+//
+// Lambdas and users' classes are filters as they are. One side of `f | g` must declare `is_filter`, as the library's
+// filters do, or be a chain; `filter_chain<>{} | f | g` composes others.
+
+#include <tuple>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A sequence of filters, composed by `f | g`. Stages are stored by value; a chain may be applied to any number of
 /// images.
@@ -4794,6 +4852,18 @@ struct filter_chain {
 };
 
 namespace detail::inline INSONIFY_FLAGS {
+
+template <class T>
+inline constexpr bool is_image = false;
+template <class T>
+inline constexpr bool is_image<image<T>> = true;
+template <class T>
+inline constexpr bool is_image<image_view<T>> = true;
+
+template <class F>
+concept library_filter = requires {
+    typename std::remove_cvref_t<F>::is_filter;
+};
 
 template <class F>
 inline constexpr bool is_chain = false;
@@ -5946,10 +6016,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The lattice of which a triangle is half a cell.
+/// The lattice of cells one of which a triangle halves.
 class triangle_lattice {
   public:
-    /// Of a cell's three edges the longest is its diagonal. The first step goes mostly along x, both upwards.
+    /// The longest edge is the diagonal of a cell. The first axis is the one closer to x; both point to larger
+    /// coordinates.
     static std::optional<triangle_lattice> of(const mesh& m) {
         if (m.triangles.size() < 2) return std::nullopt;
         glm::dvec2 corner[3];
@@ -5975,14 +6046,14 @@ class triangle_lattice {
         return l;
     }
 
-    /// The steps of a vertex from the triangle's right angle, if it lies within a quarter of one.
+    /// Column and row of a vertex, from the triangle's right angle; none if it is more than a quarter of a step off.
     std::optional<glm::ivec2> steps(const mesh& m, std::uint32_t vertex) const {
         const glm::dvec2 off = place(m, vertex) - origin_;
         const glm::dvec2 at{x_of_.x * off.x + x_of_.y * off.y, y_of_.x * off.x + y_of_.y * off.y};
-        constexpr double farthest = 1 << 24;
+        constexpr double limit = 1 << 24;
         glm::ivec2 whole;
         for (int axis = 0; axis < 2; ++axis) {
-            if (!(numeric::abs(at[axis]) < farthest)) return std::nullopt;
+            if (!(numeric::abs(at[axis]) < limit)) return std::nullopt;
             whole[axis] = static_cast<int>(numeric::floor_to_int(at[axis] + 0.5));
             if (numeric::abs(at[axis] - whole[axis]) > 0.25) return std::nullopt;
         }
@@ -5997,66 +6068,91 @@ class triangle_lattice {
     glm::dvec2 origin_{0}, right_{0}, up_{0}, x_of_{0}, y_of_{0};
 };
 
+/// The vertices of a mesh as points of a lattice.
+struct lattice_vertices {
+    std::vector<glm::ivec2> at;  ///< column and row of each vertex
+    glm::ivec2 lowest{0}, highest{0};
+
+    std::size_t columns() const { return static_cast<std::size_t>(highest.x - lowest.x + 1); }
+    std::size_t rows() const { return static_cast<std::size_t>(highest.y - lowest.y + 1); }
+    /// Index of a point in a lattice of so many columns, row by row.
+    std::size_t index(const glm::ivec2& p, std::size_t width) const {
+        return static_cast<std::size_t>(p.y - lowest.y) * width + static_cast<std::size_t>(p.x - lowest.x);
+    }
+
+    static std::optional<lattice_vertices> of(const mesh& m, const triangle_lattice& lattice) {
+        lattice_vertices v;
+        v.at.reserve(m.positions.size());
+        for (std::uint32_t i = 0; i < m.positions.size(); ++i) {
+            const auto steps = lattice.steps(m, i);
+            if (!steps) return std::nullopt;
+            v.at.push_back(*steps);
+            v.lowest = {(std::min)(v.lowest.x, steps->x), (std::min)(v.lowest.y, steps->y)};
+            v.highest = {(std::max)(v.highest.x, steps->x), (std::max)(v.highest.y, steps->y)};
+        }
+        return v;
+    }
+
+    /// The vertex at each point, row by row; none if a point has two.
+    std::optional<std::vector<std::uint32_t>> by_point() const {
+        constexpr std::uint32_t none = 0xFFFFFFFFu;
+        std::vector<std::uint32_t> vertices(at.size(), none);
+        for (std::uint32_t v = 0; v < at.size(); ++v) {
+            std::uint32_t& vertex = vertices[index(at[v], columns())];
+            if (vertex != none) return std::nullopt;
+            vertex = v;
+        }
+        return vertices;
+    }
+};
+
+/// Whether all cells are cut from the lower left to the upper right corner; none if the triangles are not the halves of
+/// all cells, cut the same way and counter-clockwise.
+inline std::optional<bool> rising_diagonals(const mesh& m, const lattice_vertices& v) {
+    std::vector<bool> found(m.triangles.size(), false);
+    std::optional<bool> is_rising;
+    for (const glm::uvec3& t : m.triangles) {
+        const glm::ivec2 a = v.at[t.x], b = v.at[t.y], c = v.at[t.z];
+        const glm::ivec2 corner{(std::min)((std::min)(a.x, b.x), c.x), (std::min)((std::min)(a.y, b.y), c.y)};
+        const glm::ivec2 ab = b - a, ac = c - a;
+        if (ab.x * ac.y - ab.y * ac.x != 1) return std::nullopt;
+        // With the corners of a cell numbered x + 2 y, a triangle lacks 1 or 2 if its diagonal rises, else 0 or 3.
+        int missing_corner = 6;
+        for (const glm::ivec2& p : {a, b, c}) {
+            if (p.x > corner.x + 1 || p.y > corner.y + 1) return std::nullopt;
+            missing_corner -= (p.x - corner.x) + 2 * (p.y - corner.y);
+        }
+        const bool rises = missing_corner == 1 || missing_corner == 2;
+        if (is_rising.value_or(rises) != rises) return std::nullopt;
+        is_rising = rises;
+        const std::size_t half = 2 * v.index(corner, v.columns() - 1) + (missing_corner < 2 ? 1 : 0);
+        if (found[half]) return std::nullopt;
+        found[half] = true;
+    }
+    return is_rising;
+}
+
 /// Renumbers a mesh that is a whole lattice of cells, each cut the same way into two triangles that are
 /// counter-clockwise seen from +z: vertices row by row, triangles cell by cell. Any other mesh stays as it is.
-/// @returns whether it was one
+/// @returns whether the mesh is such a lattice
 inline bool order_by_lattice(mesh& m) {
     const auto lattice = triangle_lattice::of(m);
     if (!lattice) return false;
-    std::vector<glm::ivec2> at(m.positions.size());
-    glm::ivec2 lowest(0), highest(0);
-    for (std::uint32_t v = 0; v < at.size(); ++v) {
-        const auto steps = lattice->steps(m, v);
-        if (!steps) return false;
-        at[v] = *steps;
-        lowest = {(std::min)(lowest.x, at[v].x), (std::min)(lowest.y, at[v].y)};
-        highest = {(std::max)(highest.x, at[v].x), (std::max)(highest.y, at[v].y)};
-    }
-    const auto columns = static_cast<std::size_t>(highest.x - lowest.x + 1),
-               rows = static_cast<std::size_t>(highest.y - lowest.y + 1);
-    if (columns * rows != at.size() || m.triangles.size() != 2 * (columns - 1) * (rows - 1)) return false;
-
-    constexpr std::uint32_t none = 0xFFFFFFFFu;
-    std::vector<std::uint32_t> vertex_at(at.size(), none);
-    const auto number_of = [&](const glm::ivec2& p) {
-        return static_cast<std::size_t>(p.y - lowest.y) * columns + static_cast<std::size_t>(p.x - lowest.x);
-    };
-    for (std::uint32_t v = 0; v < at.size(); ++v) {
-        std::uint32_t& to = vertex_at[number_of(at[v])];
-        if (to != none) return false;
-        to = v;
-    }
-
-    // Each triangle leaves one corner of its cell out; with a cell's corners numbered x + 2 y, the diagonals leave out
-    // 1 and 2, or 0 and 3.
-    std::vector<bool> is_there(m.triangles.size(), false);
-    std::optional<bool> is_rising;
-    for (const glm::uvec3& t : m.triangles) {
-        const glm::ivec2 a = at[t.x], b = at[t.y], c = at[t.z];
-        const glm::ivec2 corner{(std::min)((std::min)(a.x, b.x), c.x), (std::min)((std::min)(a.y, b.y), c.y)};
-        const glm::ivec2 ab = b - a, ac = c - a;
-        if (ab.x * ac.y - ab.y * ac.x != 1) return false;
-        int left_out = 6;
-        for (const glm::ivec2& p : {a, b, c}) {
-            if (p.x > corner.x + 1 || p.y > corner.y + 1) return false;
-            left_out -= (p.x - corner.x) + 2 * (p.y - corner.y);
-        }
-        const bool rises = left_out == 1 || left_out == 2;
-        if (is_rising.value_or(rises) != rises) return false;
-        is_rising = rises;
-        const std::size_t cell = static_cast<std::size_t>(corner.y - lowest.y) * (columns - 1) +
-                                 static_cast<std::size_t>(corner.x - lowest.x);
-        const std::size_t slot = 2 * cell + (left_out < 2 ? 1 : 0);
-        if (is_there[slot]) return false;
-        is_there[slot] = true;
-    }
+    const auto v = lattice_vertices::of(m, *lattice);
+    if (!v) return false;
+    const std::size_t columns = v->columns(), rows = v->rows();
+    if (columns * rows != v->at.size() || m.triangles.size() != 2 * (columns - 1) * (rows - 1)) return false;
+    const auto vertices = v->by_point();
+    if (!vertices) return false;
+    const auto is_rising = rising_diagonals(m, *v);
+    if (!is_rising) return false;
 
     mesh ordered;
     ordered.positions.reserve(m.positions.size());
     ordered.normals.reserve(m.normals.size());
-    for (const std::uint32_t v : vertex_at) {
-        ordered.positions.push_back(m.positions[v]);
-        if (!m.normals.empty()) ordered.normals.push_back(m.normals[v]);
+    for (const std::uint32_t i : *vertices) {
+        ordered.positions.push_back(m.positions[i]);
+        if (!m.normals.empty()) ordered.normals.push_back(m.normals[i]);
     }
     ordered.triangles.reserve(m.triangles.size());
     for (std::size_t y = 0; y + 1 < rows; ++y)
@@ -6311,8 +6407,6 @@ INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/topology.hpp ------------------------------------------------------------
 // Checks whether a mesh is closed and consistently oriented, as imported targets should be.
-
-#include <numeric>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -7900,8 +7994,57 @@ struct roughness {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/seabed/detail/interpolation.hpp --------------------------------------------------
+// Interpolation and falloff functions of seabed relief, for floats and lanes.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed::detail::inline INSONIFY_FLAGS {
+
+/// Perlin's quintic: from 0 to 1, first and second derivatives 0 at both ends.
+template <class T>
+INSONIFY_INLINE constexpr void fade(T& into, const T& t) {
+    into = t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);
+}
+constexpr float fade(float t) {
+    return t * t * t * (t * (t * 6 - 15) + 10);
+}
+/// Catmull-Rom interpolation from the second (t = 0) to the third (t = 1) of four values.
+template <class T>
+INSONIFY_INLINE void catmull_rom(T& into, const T (&p)[4], const T& t) {
+    const T b = 0.5f * (p[2] - p[0]), c = p[0] - 2.5f * p[1] + 2.0f * p[2] - 0.5f * p[3],
+            d = 0.5f * (p[3] - p[0]) + 1.5f * (p[1] - p[2]);
+    into = p[1] + t * (b + t * (c + t * d));
+}
+constexpr float mix(float a, float b, float t) {
+    return a + t * (b - a);
+}
+[[nodiscard]] constexpr float clamp01(float t) {
+    return t < 0 ? 0 : t > 1 ? 1 : t;
+}
+/// (1 - r^2)^2: 1 in the middle; its value and slope are 0 from a distance of 1 on.
+template <class T>
+constexpr T brush(T r) {
+    const T inside = r * r < 1 ? 1 - r * r : T(0);
+    return inside * inside;
+}
+template <class Lanes>
+INSONIFY_INLINE void clamp_lanes(Lanes& t) {
+    const Lanes zero{}, one = zero + 1.0f;
+    t = t > 0.0f ? t : zero;
+    t = t < 1.0f ? t : one;
+}
+
+}  // namespace seabed::detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/detail/lattice.hpp --------------------------------------------------------
-// World-fixed lattices: cell coordinates of positions, and random bits by cell.
+// World-fixed lattices: coordinates of positions on a lattice, and random bits for each cell.
 //
 // Random draws are keyed by lattice cell, so that a position has the same relief in any grid, tile or order of
 // evaluation. Cells are computed in double and only fractions of a cell in float: precision at 10^7 m from the origin
@@ -7916,7 +8059,6 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed::detail::inline INSONIFY_FLAGS {
 
-using insonify::detail::dispatch;
 using insonify::detail::lanes;
 
 /// Random streams: every layer of every model has its own.
@@ -8017,6 +8159,24 @@ struct lattice_coordinate {
         : cell(numeric::floor_to_int(cells)), fraction(static_cast<float>(cells - static_cast<double>(cell))) {}
 };
 
+}  // namespace seabed::detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/seabed/detail/stretch.hpp --------------------------------------------------------
+// Rows of samples in pieces: a stretch holds the positions of up to `chunk` samples, padded to whole vectors, and
+// kernels add relief to its values N lanes at a time.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed::detail::inline INSONIFY_FLAGS {
+
+using insonify::detail::dispatch;
+
 /// The part of a row that is processed at a time: its positions, padded with the last to whole vectors.
 struct stretch {
     static constexpr std::size_t padded = chunk;  // which is a multiple of every lane count
@@ -8074,7 +8234,7 @@ void by_stretches(const scanline& line, std::span<float> heights, Fill&& fill) {
 /// Kernel that calls `model.add_lanes<N>(part, values)`: adds a model's relief along a stretch to its values.
 template <class Model>
 struct relief_kernel {
-    static constexpr int widest = 16;
+    static constexpr int avx512_lanes = 16;
 
     const Model& model;
     const stretch& part;
@@ -8150,40 +8310,6 @@ INSONIFY_INLINE void offsets(lanes<float, N>& into, const double* x, double freq
     }
 }
 
-/// Perlin's quintic: from 0 to 1, first and second derivatives 0 at both ends.
-template <class T>
-INSONIFY_INLINE constexpr void fade(T& into, const T& t) {
-    into = t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);
-}
-constexpr float fade(float t) {
-    return t * t * t * (t * (t * 6 - 15) + 10);
-}
-/// Catmull-Rom interpolation from the second (t = 0) to the third (t = 1) of four values.
-template <class T>
-INSONIFY_INLINE void catmull_rom(T& into, const T (&p)[4], const T& t) {
-    const T b = 0.5f * (p[2] - p[0]), c = p[0] - 2.5f * p[1] + 2.0f * p[2] - 0.5f * p[3],
-            d = 0.5f * (p[3] - p[0]) + 1.5f * (p[1] - p[2]);
-    into = p[1] + t * (b + t * (c + t * d));
-}
-constexpr float mix(float a, float b, float t) {
-    return a + t * (b - a);
-}
-[[nodiscard]] constexpr float clamp01(float t) {
-    return t < 0 ? 0 : t > 1 ? 1 : t;
-}
-/// (1 - r^2)^2: 1 in the middle; its value and slope are 0 from a distance of 1 on.
-template <class T>
-constexpr T brush(T r) {
-    const T inside = r * r < 1 ? 1 - r * r : T(0);
-    return inside * inside;
-}
-template <class Lanes>
-INSONIFY_INLINE void clamp_lanes(Lanes& t) {
-    const Lanes zero{}, one = zero + 1.0f;
-    t = t > 0.0f ? t : zero;
-    t = t < 1.0f ? t : one;
-}
-
 }  // namespace seabed::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -8202,7 +8328,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace seabed::inline INSONIFY_FLAGS {
+namespace seabed::detail::inline INSONIFY_FLAGS {
 
 /// Gradient noise: mean 0, variance 1, twice differentiable, waves of about one to three cells.
 class gradient_noise {
@@ -8217,17 +8343,16 @@ class gradient_noise {
     static constexpr float mean_square_slope = 16.767904f;
 
     /// @param cell  metres, > 0
-    gradient_noise(double cell, detail::cell_hash hash) : lattice_(detail::lattice::shifted(cell, hash)), hash_(hash) {}
+    gradient_noise(double cell, cell_hash hash) : lattice_(lattice::shifted(cell, hash)), hash_(hash) {}
 
     /// The fraction of the amplitude that the stretch's grid can carry; a cell is about half a wavelength.
-    float carried_by(const detail::stretch& part) const { return carried(2 / lattice_.frequency, part.grid_spacing); }
+    float carried_by(const stretch& part) const { return carried(2 / lattice_.frequency, part.grid_spacing); }
 
     /// Adds `amplitude` times the noise along a stretch to its values.
     template <int N>
-    INSONIFY_INLINE void add(const detail::stretch& part, float amplitude, float* values) const {
-        const detail::lattice_coordinate v(lattice_.v(part.y));
-        const line_of_cells line{hash_[v.cell], hash_[v.cell + 1], v.fraction, detail::fade(v.fraction),
-                                 amplitude * gain};
+    INSONIFY_INLINE void add(const stretch& part, float amplitude, float* values) const {
+        const lattice_coordinate v(lattice_.v(part.y));
+        const line_of_cells line{hash_[v.cell], hash_[v.cell + 1], v.fraction, fade(v.fraction), amplitude * gain};
         const std::int64_t first = numeric::floor_to_int(lattice_.u(part.x[0]));
         const std::int64_t last = numeric::floor_to_int(lattice_.u(part.x[part.whole() - 1])) + 1;
         const bool dense = last - first < table_size;
@@ -8246,8 +8371,7 @@ class gradient_noise {
                         corner, [&](int k) INSONIFY_INLINE_LAMBDA { return &from[lane(cell, k)].height; });
             };
             if (dense) {
-                detail::locate<N>(across, cell, &part.x[i], lattice_.frequency, lattice_.offset_x,
-                                  static_cast<double>(first));
+                locate<N>(across, cell, &part.x[i], lattice_.frequency, lattice_.offset_x, static_cast<double>(first));
                 const std::int32_t begin = lane(cell, 0);
                 if (begin == lane(cell, N - 1)) {
                     const float* const both = &sides[begin].height;
@@ -8258,7 +8382,7 @@ class gradient_noise {
             } else {
                 // Samples are so far apart that each has its own columns.
                 for (int k = 0; k < N; ++k) {
-                    const detail::lattice_coordinate u(lattice_.u(part.x[i + static_cast<std::size_t>(k)]));
+                    const lattice_coordinate u(lattice_.u(part.x[i + static_cast<std::size_t>(k)]));
                     line.template tabulate<1>(sides + 2 * k, static_cast<std::uint32_t>(u.cell), 1);
                     insonify::detail::set_lane(across, k, u.fraction);
                     insonify::detail::set_lane(cell, k, 2 * k);
@@ -8267,7 +8391,7 @@ class gradient_noise {
             }
             const lanes<float, N> left = corner[0] + corner[1] * across,
                                   right = corner[2] + corner[3] * (across - 1.0f);
-            detail::fade(weight, across);
+            fade(weight, across);
             insonify::detail::load(sum, values + i);
             sum = sum + (left + weight * (right - left));
             insonify::detail::store(values + i, sum);
@@ -8287,7 +8411,7 @@ class gradient_noise {
     static constexpr std::int64_t table_size = 512;  // columns; samples of wider rows lie in cells of their own
 
     struct line_of_cells {
-        detail::cell_hash::row below, above;
+        cell_hash::row below, above;
         float up, rise, gain;  // the row's fraction within its cells, the fade of it, and the scale
 
         template <int N>
@@ -8303,7 +8427,7 @@ class gradient_noise {
 
         /// Both components in [-1, 1), from 16 bits each.
         template <int N>
-        INSONIFY_INLINE static void gradient(lanes<float, N>& x, lanes<float, N>& y, const detail::cell_hash::row& row,
+        INSONIFY_INLINE static void gradient(lanes<float, N>& x, lanes<float, N>& y, const cell_hash::row& row,
                                              const words<N>& column) {
             using ints = lanes<std::int32_t, N>;
             words<N> bits;
@@ -8329,20 +8453,20 @@ class gradient_noise {
         }
     };
 
-    detail::lattice lattice_;
-    detail::cell_hash hash_;
+    lattice lattice_;
+    cell_hash hash_;
 };
 
 /// Octaves of gradient noise, cells halved from one to the next, that make up a `roughness`.
 class power_law_noise {
   public:
     /// @throws invalid_input for parameters out of the ranges above
-    power_law_noise(const roughness& r, std::uint64_t seed, detail::stream purpose, std::uint32_t layer = 0) {
-        detail::require(r.rms >= 0 && r.rms < 1e6f, "roughness.rms", r.rms, "metres, at least 0");
-        detail::require(r.longest > 0 && r.longest < 1e6f, "roughness.longest", r.longest, "metres above 0");
-        detail::require(r.shortest >= 1e-4f && r.shortest <= r.longest, "roughness.shortest", r.shortest,
-                        "metres from 1e-4 to roughness.longest");
-        detail::require(r.exponent >= 2 && r.exponent <= 4, "roughness.exponent", r.exponent, "2 to 4");
+    power_law_noise(const roughness& r, std::uint64_t seed, stream purpose, std::uint32_t layer = 0) {
+        require(r.rms >= 0 && r.rms < 1e6f, "roughness.rms", r.rms, "metres, at least 0");
+        require(r.longest > 0 && r.longest < 1e6f, "roughness.longest", r.longest, "metres above 0");
+        require(r.shortest >= 1e-4f && r.shortest <= r.longest, "roughness.shortest", r.shortest,
+                "metres from 1e-4 to roughness.longest");
+        require(r.exponent >= 2 && r.exponent <= 4, "roughness.exponent", r.exponent, "2 to 4");
         if (r.rms == 0) return;
 
         // An octave spreads its variance over an area of the wave number plane four times that of the one before, so
@@ -8364,8 +8488,8 @@ class power_law_noise {
     }
 
     /// Adds the relief along a stretch to its values, metres.
-    void add(const detail::stretch& part, detail::stretch_values& values, isa level = best_isa()) const {
-        if (!octaves_.empty()) detail::add_relief(*this, part, values, level);
+    void add(const stretch& part, stretch_values& values, isa level = best_isa()) const {
+        if (!octaves_.empty()) add_relief(*this, part, values, level);
     }
 
     /// Upper bound of the relief's absolute value, metres.
@@ -8379,14 +8503,14 @@ class power_law_noise {
     double rms_slope() const { return slope_; }
 
   private:
-    friend detail::relief_kernel<power_law_noise>;
+    friend relief_kernel<power_law_noise>;
 
     struct octave {
         gradient_noise noise;
         float amplitude;
     };
     template <int N>
-    INSONIFY_INLINE void add_lanes(const detail::stretch& part, float* values) const {
+    INSONIFY_INLINE void add_lanes(const stretch& part, float* values) const {
         for (const octave& o : octaves_) {
             const float kept = o.noise.carried_by(part);
             if (kept == 0) break;  // finer octaves are not carried either
@@ -8397,7 +8521,7 @@ class power_law_noise {
     double slope_ = 0;
 };
 
-}  // namespace seabed::inline INSONIFY_FLAGS
+}  // namespace seabed::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -8444,7 +8568,7 @@ class flat_sampler {
     height_range range() const { return {-surface_.upper_bound(), surface_.upper_bound()}; }
 
   private:
-    power_law_noise surface_;
+    detail::power_law_noise surface_;
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -9056,7 +9180,7 @@ class mud_sampler {
     }
 
   private:
-    power_law_noise surface_;
+    detail::power_law_noise surface_;
     detail::round_marks marks_;
     detail::trawl_furrows trawls_;
 };
@@ -9146,7 +9270,7 @@ class ripples_sampler {
 
   private:
     detail::ripple_train first_, second_;
-    power_law_noise surface_;
+    detail::power_law_noise surface_;
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -9400,21 +9524,21 @@ class rock_sampler {
         detail::require(r.steepness > 0 && r.steepness < 1e6f, "rock.steepness", r.steepness, "a slope above 0");
         double cell = static_cast<double>(r.outcrop) / 2;
         for (std::uint32_t k = 0; k < 3; ++k, cell /= 2) {
-            outcrops_.push_back(gradient_noise(cell, {r.seed, detail::stream::outcrops, k}));
+            outcrops_.push_back(detail::gradient_noise(cell, {r.seed, detail::stream::outcrops, k}));
         }
         // Blocks of half the size are 2^sizes times as many, in four times as many cells.
         const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(r.sizes) - 2));
-        float share = 1, height = 0.8f * r.relief, most = 1;
+        float share = 1, height = 0.8f * r.relief, largest = 1;
         float size = r.block;
         std::vector<float> shares;
         for (; shares.empty() || size >= r.smallest; size /= 2, share *= ratio) {
             shares.push_back(share);
-            most = (std::max)(most, share);
+            largest = (std::max)(largest, share);
         }
         size = r.block;
         for (std::uint32_t k = 0; k < shares.size(); ++k, size /= 2, height /= 2) {
             blocks_.push_back({static_cast<double>(size),
-                               r.fracture * shares[k] / most,
+                               r.fracture * shares[k] / largest,
                                height,
                                r.steepness,
                                {r.seed, detail::stream::blocks, k}});
@@ -9442,7 +9566,7 @@ class rock_sampler {
         // Where a noise exceeds a threshold, the bottom steps up to the top of an outcrop over a steep face.
         detail::stretch_values weights{}, tops;
         float amplitude = 1;
-        for (const gradient_noise& octave : outcrops_) {
+        for (const detail::gradient_noise& octave : outcrops_) {
             octave.template add<N>(part, amplitude * octave.carried_by(part), weights.data());
             amplitude *= 0.5f;
         }
@@ -9475,9 +9599,9 @@ class rock_sampler {
         }
     }
 
-    std::vector<gradient_noise> outcrops_;
+    std::vector<detail::gradient_noise> outcrops_;
     std::vector<detail::block_layer> blocks_;
-    power_law_noise surface_;
+    detail::power_law_noise surface_;
     float relief_;
 };
 
@@ -9647,11 +9771,19 @@ class light_frame {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/shadow/policy.hpp ----------------------------------------------------------------
-// What a shadow policy is: casters and a light go in, points are tested, and each comes back with its share of the
-// light and the caster that blocks it.
+// The concept of a shadow policy: from casters and a light it builds an occlusion, which computes for any batch of
+// points the share of the light that arrives and the caster that blocks it.
 //
-// A policy is a plain value that builds a structure for one light; the structure answers for any number of batches of
-// points. The built-in policies (map, pcf, exact, penumbra) are models of these concepts, and so are those of users.
+// The built-in policies (map, pcf, exact, penumbra) are models of these concepts, as are those of users:
+//
+//     struct my_policy {
+//         my_occlusion build(std::span<const shadow::caster> casters, const shadow::any_light& light,
+//                            const shadow::point_bounds& bounds, auto& executor) const;
+//     };
+//     render(scene, rig, render_options<my_policy>{});
+//
+// Parallel light is a shadow::directional_light; shadow::light_frame (light.hpp) has its direction as a vector. Casters
+// are the targets in the order of the scene, then the seabed, in the frame of the light.
 
 #include <variant>
 
@@ -9661,14 +9793,14 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow {
 
-/// Where there is no caster, no mesh or no triangle.
+/// Stands for no caster, no mesh or no triangle.
 inline constexpr std::uint32_t invalid_id = 0xFFFFFFFFu;
 
-/// Which triangles of a caster a test may leave out, because others block the same points.
+/// Triangles of a caster that a test may skip, because others block the same points.
 enum class skip {
     nothing,         ///< both sides of all triangles block
-    facing,          ///< those whose front the light meets: the mesh is closed, and no point lies inside of it
-    facing_its_own,  ///< the same for points on the caster itself: it is a heightfield, lit and seen from above
+    facing,          ///< front faces towards the light: the mesh is closed, and no point lies inside
+    facing_its_own,  ///< the same, for points on the caster itself: a heightfield, lit and seen from above
 };
 
 /// A mesh that blocks light, in the frame in which the light is described. Both sides of its triangles block.
@@ -9678,30 +9810,30 @@ struct caster {
     affine placement;  ///< from the mesh's frame to the light's
     bounding_box box;  ///< around the mesh, in its own frame
     skip may_skip = skip::nothing;
-    const regular_grid* grid = nullptr;  ///< on which the vertices lie, see shared_mesh; or null
+    const regular_grid* grid = nullptr;  ///< lattice of the vertices, see shared_mesh; or null
 };
 
 /// Points to test, as arrays of equal length.
 struct points {
     std::span<const double> x, y, z;          ///< metres
-    std::span<const std::uint32_t> mesh;      ///< number of the caster that a point lies on, or invalid_id
+    std::span<const std::uint32_t> mesh;      ///< index of the caster that a point lies on, or invalid_id
     std::span<const std::uint32_t> triangle;  ///< of that caster; it does not block its own points
-    std::uint32_t casters = invalid_id;       ///< casters numbered below this matter; others need not be tested
-    bool face_light = true;                   ///< their own facets do; else only the caster's name matters
+    std::uint32_t casters = invalid_id;       ///< only casters with a lower index are tested
+    bool face_light = true;                   ///< facets of the points face the light; if not, only `caster` is used
 
     INSONIFY_MEMBER std::size_t size() const { return x.size(); }
     INSONIFY_MEMBER glm::dvec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
-/// What becomes of points, as arrays of the same length as theirs.
+/// Results for points, as arrays of the same length.
 struct shares {
     std::span<float> lit;             ///< fraction of the light that arrives, 0 to 1
-    std::span<std::uint32_t> caster;  ///< lowest number of a caster that blocks the light's centre, or invalid_id
+    std::span<std::uint32_t> caster;  ///< lowest index of the casters that block the light's centre, or invalid_id
 
     INSONIFY_MEMBER std::size_t size() const { return lit.size(); }
 };
 
-/// Where points will be tested, and how. `level` changes no answer.
+/// Region of the points that will be tested. `level` does not change results.
 struct point_bounds {
     bounding_box box;        ///< around all of them
     double spacing = 0;      ///< metres from one to the next on level ground; 0 if unknown
@@ -9710,8 +9842,8 @@ struct point_bounds {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Normal of the facet that point i lies on, of any length, in the frame of the light; 0 if it lies on none. Its sign
-/// is that of the triangle's order, whichever side is seen.
+/// Normal of the facet that point i lies on, of any length, in the frame of the light; 0 if it lies on none. The sign
+/// follows from the order of the vertices.
 inline glm::dvec3 facet_of(std::span<const caster> casters, const points& at, std::size_t i) {
     if (at.mesh[i] >= casters.size() || at.triangle[i] == invalid_id) return glm::dvec3(0);
     const caster& c = casters[at.mesh[i]];
@@ -9724,15 +9856,15 @@ inline glm::dvec3 facet_of(std::span<const caster> casters, const points& at, st
 /// A light of any kind.
 using any_light = std::variant<directional_light, point_light>;
 
-/// `structure.test(points, shares)` fills in all shares; it may be called for several batches at the same time.
+/// `structure.test(points, shares)` sets all shares. It is called for several batches at the same time.
 template <class S>
 concept occlusion = requires(const S& structure, const points& at, const shares& into) {
     structure.test(at, into);
 };
 
-/// `policy.build(casters, light, bounds, executor)` gives an occlusion. All points that it will be asked about lie
-/// within `bounds`; the casters' meshes outlive it. Surfaces that face away from the light are dark under every policy:
-/// that is decided before, from the facet, and such a point is only tested for the name of its caster.
+/// `policy.build(casters, light, bounds, executor)` returns an occlusion. All points to test lie within `bounds`; the
+/// casters' meshes outlive it. Surfaces that face away from the light are dark under every policy: their points are
+/// tested only for the caster.
 template <class P>
 concept casting_policy = requires(const P& policy, std::span<const caster> casters, const any_light& light,
                                   const point_bounds& bounds, serial_executor& ex) {
@@ -9743,7 +9875,7 @@ class exact_occlusion;
 
 }  // namespace INSONIFY_FLAGS
 
-/// Hard shadows, exact for every point: the default. See exact.hpp, which makes it a model of casting_policy.
+/// Hard shadows, exact for every point: the default. exact.hpp defines its `build`.
 struct exact {
     /// See casting_policy.
     template <executor E>
@@ -9760,7 +9892,7 @@ concept policy = std::same_as<P, none> || casting_policy<P>;
 
 inline namespace INSONIFY_FLAGS {
 
-/// Radius of the light over its distance: 0, unless a policy has a `light_radius()`.
+/// Radius of the light over its distance: `light_radius()` of the policy, or 0.
 template <policy P>
 double radius_of(const P& p) {
     if constexpr (requires { p.light_radius(); })
@@ -9771,9 +9903,9 @@ double radius_of(const P& p) {
 
 }  // namespace INSONIFY_FLAGS
 
-/// Occlusion that gains from seeing all points of a picture at once. `structure.screen(points, shares)` answers what
-/// can be told of points one by one and leaves `unknown` where it cannot; `structure.test(batches, shares, executor)`
-/// answers the rest, of all batches together.
+/// An occlusion that is faster for all points of a picture at once. `structure.screen(points, shares)` decides points
+/// that a cheap test can decide and sets the others to `unknown`; `structure.test(batches, shares, executor)` decides
+/// those, all batches together.
 template <class S>
 concept collective_occlusion = occlusion<S> &&
     requires(const S& structure, const points& at, const shares& into, std::span<const points> all_at,
@@ -9783,11 +9915,11 @@ concept collective_occlusion = occlusion<S> &&
 };
 inline constexpr float unknown = -1;  ///< in shares::lit, between screening and testing
 
-/// What may be known of a triangle or a point beforehand.
+/// Result of a test that may leave a triangle or a point undecided.
 enum class known : std::uint8_t { lit, dark, nothing };
 
-/// Collective occlusion that knows whole triangles: `structure.known_triangles(caster, eye, executor)` has an answer
-/// for each triangle of a caster as the camera sees it, or none at all.
+/// A collective occlusion that decides whole triangles: `structure.known_triangles(caster, eye, executor)` returns a
+/// result for each triangle of a caster as seen by the camera, or an empty vector.
 template <class S>
 concept triangle_occlusion = collective_occlusion<S> &&
     requires(const S& structure, std::uint32_t caster, const glm::dvec3& eye, serial_executor& ex) {
@@ -10932,13 +11064,13 @@ struct largest_index_kernel {
 
     template <int N>
     INSONIFY_INLINE void run() const {
-        lanes<std::uint32_t, N> most{}, some;
+        lanes<std::uint32_t, N> maximum{}, some;
         std::size_t i = 0;
         for (; i + N <= count; i += N) {
             load(some, indices + i);
-            most = some > most ? some : most;
+            maximum = some > maximum ? some : maximum;
         }
-        for (int k = 0; k < N; ++k) largest = (std::max)(largest, lane(most, k));
+        for (int k = 0; k < N; ++k) largest = (std::max)(largest, lane(maximum, k));
         for (; i < count; ++i) largest = (std::max)(largest, indices[i]);
     }
 };
@@ -12442,11 +12574,8 @@ struct vertex_kernel {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/detail/assembly.hpp -------------------------------------------------------
-// Primitive assembly: from a mesh to triangles on the screen, culled, clipped where needed, and binned.
-//
-// Almost all triangles are compact: 32-bit coordinates, 64-bit edge functions. The others are wide: vertices beyond the
-// compact grid, or pieces of clipped triangles. They go a slower way that stays exact at any distance.
+// ------------ insonify/raster/detail/screen_triangle.hpp ------------------------------------------------
+// Triangles on the screen, compact or wide, and the barycentric weights of a pixel.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -12491,6 +12620,24 @@ struct screen_triangle {
         return numeric::product(glm::dmat3(wide->weights[0], wide->weights[1], wide->weights[2]), w);
     }
 };
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/raster/detail/assembly.hpp -------------------------------------------------------
+// Primitive assembly: from a mesh to triangles on the screen, culled, clipped where needed, and binned.
+//
+// Almost all triangles are compact: 32-bit coordinates, 64-bit edge functions. The others are wide: vertices beyond the
+// compact grid, or pieces of clipped triangles. They go a slower way that stays exact at any distance.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The visible triangles of a chunk, and the counts of all.
 struct assembled_chunk {
@@ -12844,11 +12991,7 @@ INSONIFY_INLINE void test_depth(float* depth, std::uint32_t* ids, const lanes<st
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/detail/fill.hpp -----------------------------------------------------------
-// Fills triangles into a tile: coverage, depth, depth test.
-//
-// A triangle of a fine mesh covers two or three pixels, so rows of eight would mostly miss. Where all triangles of a
-// group are tiny, each lane walks over the pixels of its own triangle, and only covered pixels are compared with the
-// tile, triangle after triangle. Other triangles go row by row. Both ways give the same bits.
+// Fills a triangle of any size into a tile, row by row: coverage, depth, depth test. See small_fill.hpp for small ones.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -12916,6 +13059,25 @@ INSONIFY_INLINE void fill(const triangle_setup& t, tile_buffer<HasIds>& tile, st
         row_ab += static_cast<Int>(t.ab.dy);
     }
 }
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/raster/detail/small_fill.hpp -----------------------------------------------------
+// Fills small triangles into a tile, N at a time.
+//
+// A triangle of a fine mesh covers two or three pixels, so rows of eight would mostly miss. Where all triangles of a
+// group are tiny, each lane evaluates the pixels of its own triangle, and only covered pixels are compared with the
+// tile, triangle after triangle. Larger ones are filled row by row. Both ways give the same bits.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Fills up to N small triangles, in order.
 template <int N, class Real, bool HasIds>
@@ -14045,7 +14207,7 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/seabed/detail/normals.hpp --------------------------------------------------------
+// ------------ insonify/seabed/normals.hpp ---------------------------------------------------------------
 // Normals of a heightfield, by finite differences of its vertices.
 //
 // Central differences resolve the relief of the drawn mesh and nothing finer, for every model. The slope of a wave of n
@@ -14347,16 +14509,17 @@ class light_rays {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/shadow/detail/horizon_bounds.hpp -------------------------------------------------
-// Parallel light over a regular grid: for each cell, proved bounds on how far the surface before it blocks the light.
+// Bounds on the horizon of a regular grid under parallel light: how high the surface towards the light rises over each
+// cell.
 //
-// In a grid's own steps, all points of a ray share u = X + drop z: where it meets z = 0. A point is dark if the surface
-// up the light from it has a larger u somewhere on its ray. Strips one row wide run with the light, so no ray leaves
-// its strip. Along a strip the sweep carries the largest value that every ray of it must have met (the least of the
-// vertices around the strip where it crosses a column), and the largest that any may have met. What lies below the one
-// is dark, above the other lit; the few points between them are left to an exact test.
+// In grid steps, all points of a ray have the same u = X + drop z, the X at which the ray meets z = 0. A point is in
+// shadow if the surface has a larger u somewhere on its ray towards the light. Strips one row wide run along the light,
+// so that no ray leaves its strip. Along each strip the kernel carries two bounds: a lower bound of the largest u on
+// every ray (the minimum over the vertices around the strip at each column), and an upper bound (the maximum). Points
+// below the lower bound are dark, points above the upper bound lit; the few in between are left to an exact test.
 //
-// Where all triangles around a strip face the light, u rises along every ray, and what a ray has met there is below any
-// later point of the same rise. So such columns are left out of the upper bound, and a lit slope never doubts itself.
+// Where all triangles around a strip face the light, u increases along each ray, so that they cannot shade a later
+// point of the same slope. Such columns are left out of the upper bound, or points on lit slopes would be undecided.
 //
 // Based on: Nelson L. Max. Horizon Mapping: Shadows for Bump-Mapped Surfaces. 1988
 
@@ -14366,21 +14529,21 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
-/// A grid as the light crosses it: X counts its vertices along the axis that the light follows most, Y those across,
-/// both turned so that the light goes towards larger ones, by `slope` of Y for each of X.
+/// A grid with axes along the light: X counts vertices along the axis closer to the light's direction, Y across it.
+/// Light travels towards larger X and Y, by `slope` steps of Y per step of X.
 struct lit_grid {
     int columns = 0, rows = 0;  ///< vertices along X, and along Y
     bool is_rising = true;      ///< cells are cut from (X, Y) to (X + 1, Y + 1), or else from (X, Y + 1) to (X + 1, Y)
     double slope = 0;           ///< in [0, 1]
-    double drop = 0;            ///< columns that the light passes while it sinks by 1 m
-    std::ptrdiff_t first = 0, along = 1, across = 1;  ///< number of vertex (0, 0) in the mesh, and steps to the next
+    double drop = 0;            ///< columns that light crosses per metre of descent
+    std::ptrdiff_t first = 0, along = 1, across = 1;  ///< index of vertex (0, 0) in the mesh, and strides
     std::ptrdiff_t pitch = 1;                         ///< vertices from one row of the mesh to the next
-    std::ptrdiff_t first_cell = 0, cell_along = 1, cell_across = 1;  ///< the same of cells, numbered like vertices
+    std::ptrdiff_t first_cell = 0, cell_along = 1, cell_across = 1;  ///< the same for cells
     glm::dvec2 x_of, y_of;  ///< X = dot(x_of, p - origin), Y alike, in the mesh's frame
     glm::dvec2 origin{0};
 
     lit_grid() = default;
-    /// @param travel  where the light goes, in the mesh's frame: down
+    /// @param travel  direction in which light travels, in the mesh's frame; downwards
     lit_grid(const regular_grid& grid, const glm::dvec3& travel)
         : columns(grid.columns),
           rows(grid.rows),
@@ -14419,7 +14582,7 @@ struct lit_grid {
         cell_along = cell_steps(along);
         cell_across = cell_steps(across);
     }
-    /// (X, Y) of a place in the mesh's frame.
+    /// (X, Y) of a position in the mesh's frame.
     INSONIFY_INLINE glm::dvec2 steps(const glm::dvec2& p) const {
         const double dx = p.x - origin.x, dy = p.y - origin.y;
         return {x_of.x * dx + x_of.y * dy, y_of.x * dx + y_of.y * dy};
@@ -14434,10 +14597,10 @@ struct lit_grid {
     }
 };
 
-/// u of a grid's vertices, column by column, with nothing around them.
+/// u of a grid's vertices, column by column, padded with minus infinity.
 struct grid_heights {
     static constexpr float nothing = -std::numeric_limits<float>::infinity();
-    static constexpr int around = 4;  ///< rows of nothing on either side
+    static constexpr int around = 4;  ///< rows of padding on either side
 
     int pitch = 0;
     insonify::detail::uninitialized_vector<float> u;
@@ -14447,7 +14610,7 @@ struct grid_heights {
     grid_heights(const mesh_view& m, const lit_grid& grid, E& ex)
         : pitch(grid.rows + 2 * around),
           u(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(pitch), insonify::detail::memory_of(ex)) {
-        // In squares, so that both the mesh and what is made of it are read and written in runs.
+        // In square blocks, so that both reads and writes are contiguous.
         constexpr int square = 32;
         const auto drop = static_cast<float>(grid.drop);
         const auto runs = static_cast<std::size_t>((grid.columns + square - 1) / square);
@@ -14488,13 +14651,13 @@ struct grid_heights {
     float* column(int x) { return u.data() + static_cast<std::ptrdiff_t>(x) * pitch + around; }
 };
 
-/// What is known of the u that a ray has met before a point in a column and strip.
+/// Bounds of the largest u that rays of a strip meet before a column.
 struct horizon_bound {
     float met;       ///< at least
     float may_meet;  ///< at most
 };
 
-/// Carries bounds along some strips.
+/// Computes the bounds of some strips.
 struct horizon_kernel {
     const lit_grid& grid;
     const grid_heights& heights;
@@ -14533,7 +14696,7 @@ struct horizon_kernel {
             });
             // Every ray of the strip meets the column between rows `row` and `row + 2`.
             met = lowest > met ? lowest : met;
-            // What lies before this column counts unless it rises all the way.
+            // The columns before count unless u increases all along them.
             may_meet = was_rising ? may_meet : floats(highest > may_meet ? highest : may_meet);
             ints rises = ints{} - 1;
             unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
@@ -14547,13 +14710,13 @@ struct horizon_kernel {
                     lower = (b - a) + slope * (c - a);
                     upper = (d - c) + slope * (d - b);
                 }
-                // Beside the grid there is nothing that could fall.
+                // Cells outside of the grid do not shade.
                 const ints is_cell = ints(a > grid_heights::nothing) & ints(b > grid_heights::nothing) &
                                      ints(c > grid_heights::nothing) & ints(d > grid_heights::nothing);
                 const ints up = ints(lower > margin) & ints(upper > margin);
                 rises = rises & ints(up | ints(is_cell == 0));
             });
-            // Where it does not rise, what lies in these cells counts for the points in them and after.
+            // Where u does not increase, these cells may shade points in them and after.
             floats next = highest;
             unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { next = ahead[i] > next ? ahead[i] : next; });
             may_meet = rises ? may_meet : floats(next > may_meet ? next : may_meet);
@@ -14567,7 +14730,7 @@ struct horizon_kernel {
     template <int N>
     INSONIFY_INLINE void read(insonify::detail::lanes<float, N> (&into)[4], int x, int row) const {
         using namespace insonify::detail;
-        // Strips that run beside the grid read nothing.
+        // Strips beside the grid read the padding value.
         const float* const column = heights.column(x);
         const int low = -grid_heights::around, high = grid.rows + grid_heights::around - 4;
         unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA {
@@ -14582,11 +14745,11 @@ struct horizon_kernel {
     }
 };
 
-/// Which of a heightfield's own points are lit, dark, or left to an exact test.
+/// Decides points on a heightfield: lit, dark, or left to an exact test.
 class horizon_bounds {
   public:
     /// @param m       the mesh, on the lattice
-    /// @param travel  where the light goes, in the mesh's frame: down
+    /// @param travel  direction in which light travels, in the mesh's frame; downwards
     template <executor E>
     horizon_bounds(const mesh_view& m, const regular_grid& lattice, const glm::dvec3& travel, isa level, E& ex)
         : grid_(lattice, travel), heights_(m, grid_, ex), off_(lattice.off) {
@@ -14623,15 +14786,15 @@ class horizon_bounds {
 
     const lit_grid& grid() const { return grid_; }
     const grid_heights& heights() const { return heights_; }
-    /// By which u may be off, in columns.
+    /// Error bound of u, in columns.
     double margin() const { return margin_; }
-    /// By which vertices may lie beside the lattice, in steps.
+    /// Distance bound of vertices from the lattice, in steps.
     double off() const { return off_; }
     bool has_strip(int strip) const { return strip >= 0 && strip < strips_; }
     /// Strip number `strip` of a column holds the points with floor(Y - slope X) = strip + first_strip().
     int first_strip() const { return first_strip_; }
     horizon_bound bound(int column, int strip) const { return {met(column)[strip], may_meet(column)[strip]}; }
-    /// By strip.
+    /// Bounds of a column, by strip.
     const float* met(int column) const { return bounds_.data() + static_cast<std::ptrdiff_t>(column) * 2 * strips_; }
     const float* may_meet(int column) const { return met(column) + strips_; }
 
@@ -14737,12 +14900,12 @@ inline std::pair<glm::dvec2, glm::dvec2> seen_part(const light_plane& plane, con
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/shadow/detail/horizon_triangles.hpp ----------------------------------------------
-// Whole triangles of a regular grid that are in the light or in the dark, by the bounds of their horizon.
+// Decides whole triangles of a regular grid, lit or dark, by the bounds of their horizon.
 //
-// Within a cell, u (horizon_bounds.hpp) lies between its values at the corners, and so a triangle whose largest u is
-// below what every ray of its strips has met is dark in all its points; one whose least u is above what any may have
-// met is lit. Pixels that show such a triangle need no point. That holds for its upper side; it is the one that the
-// camera sees if the camera lies above the triangle's plane.
+// Within a cell, u (horizon_bounds.hpp) lies between its values at the corners. A triangle is dark if its largest u is
+// below the lower bounds of its strips, and lit if its least u is above the upper bounds. Pixels that show such a
+// triangle need no test of their point. This holds for the upper side, which the camera sees if it is above the
+// triangle's plane.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -14750,7 +14913,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
-/// Where the ray at a point of a light's plane meets the plane z = 0 of a mesh, in the steps of its grid.
+/// Maps points of a light's plane to where their rays meet the plane z = 0 of a mesh, in grid steps.
 class ray_feet {
   public:
     ray_feet(const light_plane& plane, const affine& placement, const lit_grid& grid) {
@@ -14767,7 +14930,7 @@ class ray_feet {
         return grid_->steps({x_of_.x * off.x + x_of_.y * off.y, y_of_.x * off.x + y_of_.y * off.y});
     }
 
-    /// Bounds of those of a rectangle's points.
+    /// Bounds of the images of a rectangle.
     std::pair<glm::dvec2, glm::dvec2> of(const glm::dvec2& corner, const glm::dvec2& size) const {
         glm::dvec2 lower = (*this)(corner), upper = lower;
         for (const glm::dvec2& other : {glm::dvec2(size.x, 0), glm::dvec2(0, size.y), size}) {
@@ -14783,7 +14946,7 @@ class ray_feet {
     const lit_grid* grid_ = nullptr;
 };
 
-/// Answers for all triangles of one grid, seen by one camera.
+/// Decides all triangles of one grid, seen by one camera.
 class horizon_triangles {
   public:
     /// @param m    the mesh, of which `horizon` is
@@ -14811,7 +14974,7 @@ class horizon_triangles {
                           static_cast<std::ptrdiff_t>(t.y) != opposite && static_cast<std::ptrdiff_t>(t.z) != opposite;
     }
 
-    /// Writes the answers of some columns of cells, by triangle.
+    /// Writes the results of some columns of cells, by triangle.
     void find(int first_column, int last_column, known* into, isa level) const {
         for (int left = first_column; left < last_column; left += square)
             for (int bottom = 0; bottom < grid_.rows - 1; bottom += square) {
@@ -14852,14 +15015,14 @@ class horizon_triangles {
     }
 
   private:
-    static constexpr int square = 32;  ///< cells, so that what is read and what is written stays in the cache
+    static constexpr int square = 32;  ///< cells of a block, which stays in the cache
 
-    /// Answers for a square's cells, the two of each side by side.
+    /// Results for the cells of a block, both triangles of a cell side by side.
     struct answers {
         known of[square][square][2];  ///< by row, then column
     };
 
-    /// A square's answers as they lie in the mesh.
+    /// The results of a block in the order of the mesh.
     void write(const answers& found, int left, int bottom, int right, int top, known* into) const {
         for (int y = bottom; y < top; ++y) {
             const auto& row = found.of[y - bottom];
@@ -14940,7 +15103,7 @@ class horizon_triangles {
     struct triangle_lanes {
         using floats = insonify::detail::lanes<float, N>;
         using ints = insonify::detail::lanes<std::int32_t, N>;
-        floats met, may_meet;  ///< surely below the one is dark, above the other lit
+        floats met, may_meet;  ///< bounds: dark below the first, lit above the second
         floats eye;            ///< what the plane has to pass below at the camera
         floats dy;             ///< from the cell to the camera
         float dx, slope, enough;
@@ -14978,13 +15141,12 @@ class horizon_triangles {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/shadow/detail/horizon_walk.hpp ---------------------------------------------------
-// Whether a heightfield on a regular grid blocks the light of one point: a walk up the light along the point's ray.
+// Shadow test of one point against a heightfield on a regular grid, by a walk along the point's ray towards the light.
 //
-// In the grid's own steps a ray of the light is a straight line across cells. Along it the surface's u
-// (horizon_bounds.hpp) is piecewise linear, with its ends on the edges that the line crosses, and the ray is blocked if
-// u rises above the point's own somewhere before it. The walk passes over blocks of cells whose highest vertex lies
-// below, and ends where the horizon's bounds tell the rest. Where u comes closer to the point's than its error, the
-// triangles of that column are tested in doubles.
+// In grid steps a ray is a straight line across cells. The surface's u (horizon_bounds.hpp) is piecewise linear along
+// it, with vertices at the edges that the line crosses, and the ray is blocked if u exceeds the point's u. The walk
+// skips blocks of cells whose largest u is below it, and ends where the bounds of the horizon decide. Where u is within
+// its error of the point's, the triangles of that column are tested in doubles.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -15060,10 +15222,10 @@ class block_heights {
     insonify::detail::uninitialized_vector<float> highest_;
 };
 
-/// Walks along one ray.
+/// The walk along one ray.
 class horizon_walk {
   public:
-    /// @param p  where the ray begins, in the mesh's frame
+    /// @param p  origin of the ray, in the mesh's frame
     horizon_walk(const horizon_bounds& horizon, const block_heights& blocks, const glm::dvec3& p)
         : horizon_(horizon),
           blocks_(blocks),
@@ -15073,8 +15235,8 @@ class horizon_walk {
           u_(x_ + grid_.drop * p.z),
           beside_(2 * horizon.off() + 0x1p-30 * grid_.columns) {}
 
-    /// Whether the surface blocks the ray. Expects a point on the surface where that faces the light.
-    /// @param decide  decide(triangle): whether it does, in doubles; not for the triangle of the point
+    /// Whether the surface blocks the ray of a point on it, where it faces the light.
+    /// @param decide  decide(triangle): test of a triangle in doubles; false for the triangle of the point
     template <class Decide>
     bool leads_from_surface(const Decide& decide) const {
         return walk(true, decide);
@@ -15091,7 +15253,7 @@ class horizon_walk {
     /// u on the edges that the ray crosses in one column of cells.
     struct crossing {
         double lowest = -nothing, highest = nothing;
-        double surely = nothing;  ///< the highest of those that lie before the point without doubt
+        double surely = nothing;  ///< the largest u that certainly lies before the point
     };
 
     double row_at(double column) const { return w_ + grid_.slope * column; }
@@ -15099,7 +15261,7 @@ class horizon_walk {
         return static_cast<int>((std::min)((std::max)(y, 0.0), static_cast<double>(grid_.rows - 2)));
     }
 
-    /// Whether the point lies over the surface, farther off than u may be.
+    /// Whether the point is above the surface by more than the error of u.
     bool lies_above() const {
         const double y = row_at(x_);
         if (!(x_ >= beside_ && x_ <= grid_.columns - 1 - beside_ && y >= beside_ && y <= grid_.rows - 1 - beside_))
@@ -15126,7 +15288,7 @@ class horizon_walk {
         if (!(x_ + beside_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
         int column = static_cast<int>((std::min)(x_ + beside_, static_cast<double>(grid_.columns - 2)));
         for (bool is_first = true; column >= 0; --column, is_first = false) {
-            // The ray passes these rows of cells here.
+            // Rows of cells that the ray crosses in this column.
             const double low = row_at(column), high = low + grid_.slope;
             if (high < -beside_ || column + 1 + grid_.drop * greatest < doubt) return false;
             if (!is_first && is_above) {
@@ -15159,7 +15321,7 @@ class horizon_walk {
         return false;
     }
 
-    /// What the bounds of a column tell of all that lies before it, if the ray has been followed down to its end.
+    /// Decides by the bounds of a column, once the ray has been followed down to it.
     known known_before(int column) const {
         const int strip = static_cast<int>(w_ - horizon_.first_strip());
         if (!horizon_.has_strip(strip)) return known::nothing;
@@ -15168,7 +15330,7 @@ class horizon_walk {
         return u_ > static_cast<double>(b.may_meet) + horizon_.margin() ? known::lit : known::nothing;
     }
 
-    /// @param limit  where the point lies, in columns from this one
+    /// @param limit  position of the point, in columns from this one
     crossing cross(int column, double limit) const {
         const double slope = grid_.slope, low = row_at(column), high = low + slope;
         const int row = held_row(low);
@@ -15186,7 +15348,7 @@ class horizon_walk {
             met.highest = (std::max)(met.highest, u);
             if (s <= limit - beside_) met.surely = (std::max)(met.surely, u);
         };
-        if (high <= 0 || low >= grid_.rows - 1) {  // along the border, by a hair
+        if (high <= 0 || low >= grid_.rows - 1) {  // along the border
             add(0, a, c, high <= 0 ? 0 : 1);
             add(1, b, d, high <= 0 ? 0 : 1);
             return met;
@@ -15196,7 +15358,7 @@ class horizon_walk {
         if (start >= 0)
             add(0, a, c, start);
         else
-            add(-start / slope, a, b, -start / slope);  // it comes in over the border
+            add(-start / slope, a, b, -start / slope);  // it enters over the border
         if (stays)
             add(1, b, d, end);
         else
@@ -15320,7 +15482,7 @@ struct plane_vertices_kernel {
     const light_plane& plane;
     affine to_plane;  ///< from the mesh to the plane, before the division
     glm::dvec2 lower;
-    double least_depth;
+    double min_depth;
 
     template <int Width>
     INSONIFY_INLINE void run() const {
@@ -15340,7 +15502,7 @@ struct plane_vertices_kernel {
             vertices[i] = {0, 0, 0, plane_vertex::not_finite};
             return;
         }
-        if (plane.is_near() && !(p.z >= least_depth)) {
+        if (plane.is_near() && !(p.z >= min_depth)) {
             vertices[i] = {0, 0, 0, p.z < 0 ? plane_vertex::behind : plane_vertex::beside};
             return;
         }
@@ -15434,17 +15596,17 @@ struct tile_assembly_kernel {
             t.range(low, high, axis);
             // A tile more than rounding can tell. NaN goes into all tiles.
             const auto scale = static_cast<float>(1 / tile[axis]);
-            const auto most = static_cast<float>(axis == 0 ? tiles.columns - 1 : tiles.rows - 1);
+            const auto last_cell = static_cast<float>(axis == 0 ? tiles.columns - 1 : tiles.rows - 1);
             const floats margin =
                 0x1p-20f * ((high < 0.0f ? floats{} - low : high) + static_cast<float>(tiles.size[axis]));
             floats f = (low - margin) * scale, l = (high + margin) * scale;
-            outside |= ints(f > most + 1.0f) | ints(l < 0.0f);
+            outside |= ints(f > last_cell + 1.0f) | ints(l < 0.0f);
             f = f > 0.0f ? f : floats{};
-            f = f < most ? f : floats{} + most;
-            l = l < most ? l : floats{} + most;
+            f = f < last_cell ? f : floats{} + last_cell;
+            l = l < last_cell ? l : floats{} + last_cell;
             l = l > 0.0f ? l : floats{};
             f = t.state > 0.0f ? floats{} : f;
-            l = t.state > 0.0f ? floats{} + most : l;
+            l = t.state > 0.0f ? floats{} + last_cell : l;
             convert(from[axis], f);
             convert(to[axis], l);
         });
@@ -15473,16 +15635,16 @@ class plane_caster {
     plane_caster() = default;
 
     /// @param c            its mesh's indices all have positions
-    /// @param least_depth  nearer to a point light than this, directions are not told apart
+    /// @param min_depth  nearer to a point light than this, directions are not told apart
     template <executor E>
-    plane_caster(const caster& c, const light_plane& plane, const plane_tiles& tiles, double least_depth, isa level,
+    plane_caster(const caster& c, const light_plane& plane, const plane_tiles& tiles, double min_depth, isa level,
                  E& ex)
         : triangles_(c.mesh.triangles), vertices_(c.mesh.positions.size(), insonify::detail::memory_of(ex)) {
         affine to_plane{{}, plane(c.placement.offset)};
         for (int i = 0; i < 3; ++i) to_plane.linear[i] = plane.direction(c.placement.linear[i]);
         bulk_ranges(ex, vertices_.size(), 16384, [&](std::size_t first, std::size_t last) {
             insonify::detail::dispatch(plane_vertices_kernel{&c.mesh.positions[first], &vertices_[first], last - first,
-                                                             plane, to_plane, tiles.lower, least_depth},
+                                                             plane, to_plane, tiles.lower, min_depth},
                                        level);
         });
         const std::size_t grain = (std::max)(std::size_t{4096}, (triangles_.size() / 64 + 16) / 16 * 16);
@@ -15695,19 +15857,19 @@ struct occlusion_kernel {
             floats low, high;
             t.range(low, high, axis);
             const float lower = receivers.lower()[axis], scale = receivers.scale()[axis];
-            const float most = static_cast<float>(axis == 0 ? receivers.columns() - 1 : receivers.rows() - 1);
+            const float last_cell = static_cast<float>(axis == 0 ? receivers.columns() - 1 : receivers.rows() - 1);
             const floats far_off = high < 0.0f - low ? 0.0f - low : high;
             size = far_off > size ? far_off : size;
             const floats margin = 0x1p-20f * (far_off + receivers.largest()) + error;
             floats f = (low - margin - lower) * scale, l = (high + margin - lower) * scale;
-            missed |= ints(f >= most + 1.0f) | ints(l < 0.0f);
+            missed |= ints(f >= last_cell + 1.0f) | ints(l < 0.0f);
             f = f > 0.0f ? f : floats{};
-            f = f < most ? f : floats{} + most;
-            l = l < most ? l : floats{} + most;
+            f = f < last_cell ? f : floats{} + last_cell;
+            l = l < last_cell ? l : floats{} + last_cell;
             l = l > 0.0f ? l : floats{};
             const ints behind = ints(t.state > 0.0f);
             f = behind ? floats{} : f;
-            l = behind ? floats{} + most : l;
+            l = behind ? floats{} + last_cell : l;
             missed = missed & ~behind;
             convert(first[axis], f);
             convert(last[axis], l);
@@ -15827,16 +15989,78 @@ struct occlusion_kernel {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/shadow/detail/tiled_plane.hpp ----------------------------------------------------
+// A plane that rays of the light cross, cut into tiles, and which casters touch each tile.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail::inline INSONIFY_FLAGS {
+
+/// The rectangle of a plane that contains the eight points corner(0) to corner(7).
+template <class Corner>
+std::pair<glm::dvec2, glm::dvec2> extent_on(const light_plane& plane, const Corner& corner) {
+    glm::dvec2 lower(std::numeric_limits<double>::infinity()), upper = -lower;
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 at = plane(corner(i));
+        lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
+        upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
+    }
+    return {lower, upper};
+}
+
+struct tiled_plane {
+    static constexpr std::uint32_t no_caster = invalid_id, several_casters = invalid_id - 1;
+
+    light_plane plane;
+    plane_tiles tiles;
+    float error = 0;  ///< of coordinates on the plane
+    std::vector<plane_caster> casters;
+    glm::dvec2 scale{};                     ///< tiles per unit
+    std::vector<std::uint32_t> occupant{};  ///< by tile: the only caster that touches it, or one of the constants
+
+    /// The tile that contains a point of the plane, or the nearest one.
+    std::size_t tile_of(const glm::dvec3& at) const {
+        const int column = clamped((at.x - tiles.lower.x) * scale.x, tiles.columns),
+                  row = clamped((at.y - tiles.lower.y) * scale.y, tiles.rows);
+        return static_cast<std::size_t>(row * tiles.columns + column);
+    }
+    /// First and last column and row of the tiles that a caster's box may touch.
+    std::pair<glm::ivec2, glm::ivec2> tiles_under(const caster& c) const {
+        const auto [lower, upper] =
+            extent_on(plane, [&](int i) { return transform_point(c.placement, c.box.corner(i)); });
+        // The margin is larger than rounding errors.
+        const auto tile = [&](const glm::dvec2& at, double margin) {
+            const glm::dvec2 in_tiles = (at - tiles.lower) * scale;
+            return glm::ivec2(clamped(in_tiles.x + margin, tiles.columns), clamped(in_tiles.y + margin, tiles.rows));
+        };
+        return {tile(lower, -0x1p-10), tile(upper, 0x1p-10)};
+    }
+    void occupy(std::size_t tile, std::size_t caster) {
+        occupant[tile] = occupant[tile] == no_caster ? static_cast<std::uint32_t>(caster) : several_casters;
+    }
+
+  private:
+    static int clamped(double at, int count) { return static_cast<int>((std::min)((std::max)(0.0, at), count - 1.0)); }
+};
+
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/shadow/exact.hpp -----------------------------------------------------------------
-// Hard shadows without a map: every point is tested against every triangle that can block its light.
+// Exact hard shadows: each point is tested against each triangle that can block its light.
 //
-// Casters and points meet on a plane that the light's rays cross upright (detail/light_planes.hpp). The plane is cut
-// into tiles; casters' triangles are noted in the tiles that they touch when the structure is built, points are sorted
-// into the tiles' cells when they are tested, and each triangle walks over the points under it
-// (detail/occlusion_kernel.hpp). The cost is linear in both, and there is no resolution and no bias.
+// Casters and points are projected along the light's rays onto a plane (detail/light_planes.hpp), which is cut into
+// tiles (detail/tiled_plane.hpp). `build` bins triangles into the tiles that they touch; `test` sorts points into the
+// cells of a tile, and each triangle is tested against the points under it (detail/occlusion_kernel.hpp). The cost is
+// linear in triangles and points, and there is no resolution and no bias.
 //
-// Every answer is that of one rule in doubles (detail/blocking.hpp), whatever the mesh: open, closed,
-// self-intersecting, inside out. Triangles are left out where a proof allows it (shadow::skip).
+// Every result is decided by one test in doubles (detail/blocking.hpp), for any mesh: open, closed, self-intersecting
+// or inside out. Triangles are skipped only where that provably changes nothing (shadow::skip).
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -15857,38 +16081,16 @@ class exact_occlusion {
           level_(where.level),
           rays_(light, reach_of(where.box)),
           grids_(casters.size()) {
-        const bounding_box& bounds = where.box;
         if (const auto* point = std::get_if<point_light>(&light)) near_light_ = *point;
         std::size_t triangles = 0;
         for (const caster& c : casters_) triangles += c.mesh.triangles.size();
-        if (triangles == 0 || bounds.empty()) return;
-        int side = 16;  // narrow tiles, so that a small caster leaves others' tiles alone
+        if (triangles == 0 || where.box.empty()) return;
+        int side = 16;  // small tiles, so that a small caster leaves others' tiles alone
         while (side < 64 && static_cast<std::size_t>(side * side) * 1024 < triangles) side *= 2;
-        const double reach = reach_of(bounds);
-        if (const auto* parallel = std::get_if<directional_light>(&light)) {
-            const light_frame frame(*parallel);
-            for (std::size_t i = 0; i < casters_.size(); ++i)
-                if (is_swept(casters_[i])) grids_[i].emplace(casters_[i], frame, level_, ex);
-            const detail::light_plane plane(frame);
-            glm::dvec2 lower(std::numeric_limits<double>::infinity()), upper = -lower;
-            for (int i = 0; i < 8; ++i) {
-                const glm::dvec3 at = plane(bounds.corner(i));
-                lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
-                upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
-            }
-            add_plane(plane, {lower, upper - lower, side, side}, 0x1p-44 * reach * (1 + frame.cot_elevation()), 0, ex);
-        } else {
-            const auto& point = std::get<point_light>(light);
-            for (int i = 0; i < 6; ++i) {
-                const detail::light_plane plane(point, i);
-                if (!detail::is_seen(plane, bounds)) {
-                    planes_.emplace_back();
-                    continue;
-                }
-                const auto [lower, upper] = detail::seen_part(plane, bounds);
-                add_plane(plane, {lower, upper - lower, side, side}, 0x1p-40, 0x1p-20 * reach, ex);
-            }
-        }
+        if (const auto* parallel = std::get_if<directional_light>(&light))
+            add_parallel_plane(light_frame(*parallel), where.box, side, ex);
+        else
+            add_point_planes(std::get<point_light>(light), where.box, side, ex);
     }
 
     /// See collective_occlusion.
@@ -15898,7 +16100,7 @@ class exact_occlusion {
         if (near_light_) return std::fill(into.lit.begin(), into.lit.end(), unknown);
         const plane_state& state = planes_.front();
         for (std::size_t i = 0; i < at.size(); ++i) {
-            const std::uint32_t occupant = state.occupant[tile_of(state, state.plane(at[i]))];
+            const std::uint32_t occupant = state.occupant[state.tile_of(state.plane(at[i]))];
             into.lit[i] = unknown;
             if (occupant == no_caster || (occupant != several_casters && occupant >= at.casters)) {
                 into.lit[i] = 1;
@@ -15910,8 +16112,8 @@ class exact_occlusion {
         }
     }
 
-    /// What is known of whole triangles of a caster as a camera sees them: an answer for each, or none at all.
-    /// @param eye  the camera
+    /// See triangle_occlusion.
+    /// @param eye  position of the camera
     template <executor E>
     insonify::detail::uninitialized_vector<known> known_triangles(std::uint32_t caster, const glm::dvec3& eye,
                                                                   E& ex) const {
@@ -15920,7 +16122,7 @@ class exact_occlusion {
         const detail::lit_grid& grid = grids_[caster]->grid();
         const detail::horizon_triangles triangles = grids_[caster]->triangles(eye);
         insonify::detail::uninitialized_vector<known> answers(c.mesh.triangles.size(), insonify::detail::memory_of(ex));
-        // Where others may cast, too, points decide.
+        // Triangles that other casters may shade are left to the test of points.
         std::vector<std::pair<glm::dvec2, glm::dvec2>> shared;
         const plane_state& plane = planes_.front();
         const detail::ray_feet feet(plane.plane, c.placement, grid);
@@ -15944,8 +16146,8 @@ class exact_occlusion {
         serial_executor serial;
         std::vector<points> parts;
         std::vector<shares> results;
-        for (std::size_t first = 0; first < at.size(); first += most_points) {
-            const std::size_t count = (std::min)(most_points, at.size() - first);
+        for (std::size_t first = 0; first < at.size(); first += max_points) {
+            const std::size_t count = (std::min)(max_points, at.size() - first);
             parts.push_back({at.x.subspan(first, count), at.y.subspan(first, count), at.z.subspan(first, count),
                              at.mesh.subspan(first, count), at.triangle.subspan(first, count), at.casters,
                              at.face_light});
@@ -15954,10 +16156,10 @@ class exact_occlusion {
         test(std::span<const points>(parts), std::span<const shares>(results), serial);
     }
 
-    /// The same for many batches of at most 2^16 points each, all of them at once.
+    /// The same for many batches of at most 2^16 points each.
     template <executor E>
     void test(std::span<const points> at, std::span<const shares> into, E& ex) const {
-        // A run of batches sorts its points by tile; then each tile collects its own from all runs.
+        // Each run of batches sorts its points by tile; then each tile collects its points from all runs.
         const std::size_t grain = (std::max)(std::size_t{8}, (at.size() + 127) / 128);
         std::vector<sorted_points> runs((at.size() + grain - 1) / grain);
         std::size_t count = 0;
@@ -15988,18 +16190,11 @@ class exact_occlusion {
     }
 
   private:
-    static constexpr std::size_t most_points = 65536;
-    static constexpr std::uint32_t no_caster = invalid_id, several_casters = invalid_id - 1;
+    static constexpr std::size_t max_points = 65536;
+    static constexpr std::uint32_t no_caster = detail::tiled_plane::no_caster,
+                                   several_casters = detail::tiled_plane::several_casters;
 
-    struct plane_state {
-        detail::light_plane plane;
-        detail::plane_tiles tiles;
-        float error = 0;  ///< of coordinates on it
-        std::vector<detail::plane_caster> casters;
-        glm::dvec2 scale{};                     ///< tiles a unit
-        std::vector<std::uint32_t> occupant{};  ///< of each tile: the caster whose triangles alone touch it,
-                                                ///< or one of the following
-    };
+    using plane_state = detail::tiled_plane;
     using receivers_of = insonify::detail::uninitialized_vector<detail::receiver>;
     /// Points of a run of batches by tile.
     struct sorted_points {
@@ -16012,13 +16207,13 @@ class exact_occlusion {
         }
     };
 
-    /// No coordinate of a point is larger. Casters may reach farther; what they block does not.
+    /// Upper bound of the absolute coordinates of points. Casters may reach farther.
     static double reach_of(const bounding_box& bounds) {
         double reach = 0;
         for (int i = 0; i < 3 && !bounds.empty(); ++i) reach = (std::max)({reach, -bounds.lower[i], bounds.upper[i]});
         return reach;
     }
-    /// Whether a caster needs no list of its triangles under parallel light.
+    /// Whether a caster is a grid that needs no list of triangles under parallel light.
     static bool is_swept(const caster& c) { return c.grid != nullptr && c.may_skip == skip::facing_its_own; }
     /// Whether caster `number` blocks the light of a point.
     bool is_blocked_by_grid(std::uint32_t number, const points& at, std::size_t i) const {
@@ -16035,32 +16230,51 @@ class exact_occlusion {
         const auto corner = [&](int j) { return transform_point(c.placement, glm::dvec3(c.mesh.positions[t[j]])); };
         return rays_.are_blocked(corner(0), corner(1), corner(2), p);
     }
+    /// Grids, and the plane across the rays of parallel light.
     template <executor E>
-    void add_plane(const detail::light_plane& plane, detail::plane_tiles tiles, double error, double least_depth,
-                   E& ex) {
+    void add_parallel_plane(const light_frame& frame, const bounding_box& bounds, int side, E& ex) {
+        for (std::size_t i = 0; i < casters_.size(); ++i)
+            if (is_swept(casters_[i])) grids_[i].emplace(casters_[i], frame, level_, ex);
+        const detail::light_plane plane(frame);
+        const auto [lower, upper] = detail::extent_on(plane, [&](int i) { return bounds.corner(i); });
+        add_plane(plane, {lower, upper - lower, side, side}, 0x1p-44 * reach_of(bounds) * (1 + frame.cot_elevation()),
+                  0, ex);
+    }
+    /// The six sides of a cube around a point light.
+    template <executor E>
+    void add_point_planes(const point_light& light, const bounding_box& bounds, int side, E& ex) {
+        for (int i = 0; i < 6; ++i) {
+            const detail::light_plane plane(light, i);
+            if (!detail::is_seen(plane, bounds)) {
+                planes_.emplace_back();
+                continue;
+            }
+            const auto [lower, upper] = detail::seen_part(plane, bounds);
+            add_plane(plane, {lower, upper - lower, side, side}, 0x1p-40, 0x1p-20 * reach_of(bounds), ex);
+        }
+    }
+    /// Bins the casters' triangles into the tiles of a plane.
+    template <executor E>
+    void add_plane(const detail::light_plane& plane, detail::plane_tiles tiles, double error, double min_depth, E& ex) {
         const double margin = error + 0x1p-20 * (std::max)(tiles.size.x, tiles.size.y) + 1e-30;
         tiles.lower -= margin;
         tiles.size += 2 * margin;
         plane_state state{plane, tiles, static_cast<float>(error), {}, 1.0 / tiles.tile(), {}};
         state.occupant.assign(tiles.count(), no_caster);
-        const auto occupy = [&](std::size_t tile, std::size_t i) {
-            std::uint32_t& occupant = state.occupant[tile];
-            occupant = occupant == no_caster ? static_cast<std::uint32_t>(i) : several_casters;
-        };
         for (std::size_t i = 0; i < casters_.size(); ++i) {
             const caster& c = casters_[i];
             if (grids_[i]) {
                 state.casters.emplace_back();
-                const auto [first, last] = tiles_under(c, state);
+                const auto [first, last] = state.tiles_under(c);
                 for (int row = first.y; row <= last.y; ++row)
                     for (int column = first.x; column <= last.x; ++column)
-                        occupy(static_cast<std::size_t>(row * tiles.columns + column), i);
+                        state.occupy(static_cast<std::size_t>(row * tiles.columns + column), i);
                 continue;
             }
             insonify::detail::require_indices(c.mesh, ex);
-            const auto& built = state.casters.emplace_back(c, plane, tiles, least_depth, level_, ex);
+            const auto& built = state.casters.emplace_back(c, plane, tiles, min_depth, level_, ex);
             for (std::size_t tile = 0; tile < tiles.count(); ++tile)
-                if (!built.bin(tile).empty()) occupy(tile, i);
+                if (!built.bin(tile).empty()) state.occupy(tile, i);
         }
         planes_.push_back(std::move(state));
     }
@@ -16070,7 +16284,7 @@ class exact_occlusion {
         for (const plane_state& p : planes_) count += p.casters.empty() ? 0 : p.tiles.count();
         return count;
     }
-    /// The plane of a tile, and its number there.
+    /// The plane of a tile, and the number of the tile on that plane.
     std::pair<const plane_state*, std::size_t> plane_of(std::size_t tile) const {
         for (const plane_state& p : planes_) {
             if (p.casters.empty()) continue;
@@ -16080,7 +16294,7 @@ class exact_occlusion {
         return {nullptr, 0};
     }
 
-    /// Puts the points of some batches where they belong among all, by tile; those that nothing lies above are lit.
+    /// Sorts the points of some batches by tile into `all`. Points without a caster on their tile are lit.
     void sort(std::span<const points> at, std::span<const shares> into, std::size_t first, std::size_t last,
               receivers_of& all, sorted_points& out, const insonify::detail::shared_pool& memory) const {
         std::array<std::size_t, 6> plane_start{};
@@ -16089,15 +16303,15 @@ class exact_occlusion {
             plane_start[i] = tiles;
             tiles += planes_[i].casters.empty() ? 0 : planes_[i].tiles.count();
         }
-        std::size_t most = 0, count = 0;
+        std::size_t total = 0, count = 0;
         for (std::size_t part = first; part < last; ++part) {
             std::fill(into[part].lit.begin(), into[part].lit.end(), 1.0f);
             std::fill(into[part].caster.begin(), into[part].caster.end(), invalid_id);
-            most += at[part].size();
+            total += at[part].size();
         }
         if (tiles == 0) return;
-        receivers_of found(most, memory);
-        insonify::detail::uninitialized_vector<std::uint32_t> keys(most, memory);
+        receivers_of found(total, memory);
+        insonify::detail::uninitialized_vector<std::uint32_t> keys(total, memory);
         out.starts.assign(tiles + 1, 0);
         for (std::size_t part = first; part < last; ++part) {
             const points& some = at[part];
@@ -16110,7 +16324,7 @@ class exact_occlusion {
                 glm::dvec3 seen = state.plane(p);
                 if (near_light_) seen = detail::light_plane::seen(seen);
                 const glm::dvec2 from = glm::dvec2(seen) - state.tiles.lower;
-                const std::size_t tile = tile_of(state, seen);
+                const std::size_t tile = state.tile_of(seen);
                 const std::uint32_t occupant = state.occupant[tile];
                 if (occupant == no_caster || (occupant != several_casters && occupant >= some.casters)) continue;
                 found[count] = {static_cast<float>(from.x),
@@ -16129,29 +16343,6 @@ class exact_occlusion {
         std::vector<std::uint32_t> next(out.starts.begin(), out.starts.end() - 1);
         for (std::size_t i = 0; i < count; ++i) all[out.first + next[keys[i]]++] = found[i];
     }
-    static std::size_t tile_of(const plane_state& state, const glm::dvec3& seen) {
-        const int column = hold((seen.x - state.tiles.lower.x) * state.scale.x, state.tiles.columns),
-                  row = hold((seen.y - state.tiles.lower.y) * state.scale.y, state.tiles.rows);
-        return static_cast<std::size_t>(row * state.tiles.columns + column);
-    }
-    /// The first and the last tile that a caster's box may be over, as columns and rows.
-    static std::pair<glm::ivec2, glm::ivec2> tiles_under(const caster& c, const plane_state& state) {
-        glm::dvec2 lower(std::numeric_limits<double>::infinity()), upper = -lower;
-        for (int i = 0; i < 8; ++i) {
-            const glm::dvec3 at = state.plane(transform_point(c.placement, c.box.corner(i)));
-            lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
-            upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
-        }
-        // A little more than rounding can tell.
-        const auto tile = [&](const glm::dvec2& at, double beside) {
-            const glm::dvec2 in_tiles = (at - state.tiles.lower) * state.scale;
-            return glm::ivec2(hold(in_tiles.x + beside, state.tiles.columns),
-                              hold(in_tiles.y + beside, state.tiles.rows));
-        };
-        return {tile(lower, -0x1p-10), tile(upper, 0x1p-10)};
-    }
-    static int hold(double at, int count) { return static_cast<int>((std::min)((std::max)(0.0, at), count - 1.0)); }
-
     void test_tile(std::size_t tile_number, std::span<const detail::receiver> all, detail::receiver_cells& cells,
                    std::span<const points> at, std::span<const shares> into) const {
         const auto [state, tile] = plane_of(tile_number);
@@ -16319,7 +16510,7 @@ inline ground_area casting_ground(const overhead_geometry& view, const seabed::h
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/detail/shadow_terms.hpp ----------------------------------------------------
-// The light of a rig and the names of casters, as shadow policies take and give them.
+// Converts the light of a rig for shadow policies, and casters to shadow labels.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -16334,8 +16525,8 @@ inline shadow::any_light light_in_rig(const overhead_geometry& view) {
                                      static_cast<double>(view.rig().grazing)};
 }
 
-/// The name of a caster, as in labels::shadow. Targets are the first casters.
-inline std::uint16_t name_of_caster(std::uint32_t caster, std::size_t targets) {
+/// The label of a caster in labels::shadow. Targets are the first casters.
+inline std::uint16_t shadow_label(std::uint32_t caster, std::size_t targets) {
     return caster < targets ? static_cast<std::uint16_t>(caster + 1) : labels::by_seabed;
 }
 
@@ -16401,8 +16592,7 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/sonar/overhead/detail/shading.hpp ------------------------------------------------
 // Shaders of overhead pictures: light of each visible pixel, over SIMD lanes.
 //
-// Shadows of triangles that are not known to be lit or dark, and labels, are later passes over the images written here
-// (render.hpp).
+// Shadows of undecided triangles, and labels, are later passes over the images written here (render.hpp).
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -16455,7 +16645,7 @@ struct surface_vertex_shader {
     }
 };
 
-/// The bottom or a target, as the passes over the picture need it.
+/// The bottom or a target, for the passes over the picture.
 struct surface {
     mesh_view mesh;
     affine to_rig;
@@ -16466,8 +16656,8 @@ struct surface {
     material whole;                        ///< if there are no types
     const seabed::type* types = nullptr;   ///< by vertex, of a bottom of several types
     const material* materials = nullptr;   ///< by type
-    std::uint16_t shadow_name = 0;         ///< as in labels::shadow, where it lies in its own shadow
-    const shadow::known* known = nullptr;  ///< by triangle, what the light makes of it; null where nothing is known
+    std::uint16_t self_shadow_label = 0;   ///< label in labels::shadow where the surface shades itself
+    const shadow::known* known = nullptr;  ///< lit, dark or undecided, by triangle; null if none is decided
 };
 
 /// The images that shading writes; null pointers are optional.
@@ -16477,7 +16667,7 @@ struct shaded_images {
     image<std::uint32_t>* ids = nullptr;     ///< the visibility buffer
     bool has_all_ids = true;                 ///< or else those alone where light is undecided
     image<std::uint8_t>* types = nullptr;    ///< seabed::type, of bottoms of several types
-    image<std::uint16_t>* shadow = nullptr;  ///< names of casters, as far as they are known, as in labels::shadow
+    image<std::uint16_t>* shadow = nullptr;  ///< labels of casters that are known, as in labels::shadow
 
     void clear(const rect& tile) const {
         if (undecided != nullptr) undecided->marks.clear(tile);
@@ -16577,7 +16767,7 @@ class surface_shader {
         f.store(into_.picture, value);
         if (into_.shadow != nullptr) {
             lanes<std::uint16_t, N> names;
-            convert(names, is_dark ? ints{} + static_cast<std::int32_t>(object_.shadow_name) : ints{});
+            convert(names, is_dark ? ints{} + static_cast<std::int32_t>(object_.self_shadow_label) : ints{});
             f.store(*into_.shadow, names);
         }
         static_assert(N <= 8);
@@ -17018,7 +17208,7 @@ class shadow_pass {
           targets_(static_cast<std::uint32_t>(targets)),
           tiles_(of.picture.width(), of.picture.height(), std::countr_zero(static_cast<unsigned>(tile))),
           tile_pixels_(static_cast<std::size_t>(tile) * static_cast<std::size_t>(tile)),
-          run_((std::min)(tiles_.run(), most_points / tile_pixels_)),
+          run_((std::min)(tiles_.run(), max_points / tile_pixels_)),
           level_(level) {
         for (const surface& s : surfaces) finders_.emplace_back(view, s);
     }
@@ -17051,7 +17241,7 @@ class shadow_pass {
 
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
-    static constexpr std::size_t most_points = 65536;  // of a batch
+    static constexpr std::size_t max_points = 65536;  // of a batch
 
     using shown_by_surface = std::vector<std::vector<shown_pixel>>;
     /// Memory that the tiles of a run share.
@@ -17148,7 +17338,7 @@ class shadow_pass {
             if (is_facing && !(lit < 0.5f)) return;
             if (!is_facing && caster >= targets_) caster = own;
             // Without a caster, it is yet to be tested.
-            if (caster != shadow::invalid_id) images_.marks.shadow.pixels()[pixel] = name_of_caster(caster, targets_);
+            if (caster != shadow::invalid_id) images_.marks.shadow.pixels()[pixel] = shadow_label(caster, targets_);
         }
     }
 
@@ -17245,7 +17435,7 @@ class overhead_painter {
 
     bool has_bottom() const { return !scene_.seabed.empty(); }
 
-    /// Samples the ground in view, and towards the light as far as its relief can throw a shadow into view.
+    /// Samples the ground in view, and towards the light as far as its relief can cast a shadow into view.
     template <executor E>
     void sample_seabed(E& ex) {
         const overhead& rig = view_.rig();
@@ -17347,7 +17537,7 @@ class overhead_painter {
             s.caster = caster;
             s.instance = instance;
             s.seabed = seabed;
-            s.shadow_name = name_of_caster(caster, targets_.size());
+            s.self_shadow_label = shadow_label(caster, targets_.size());
             s.whole = m;
             ids += placed.shape.triangles.size();
             require(ids < shadow::invalid_id, "triangles of the scene", ids, "below 2^32 - 1");
@@ -17366,13 +17556,13 @@ class overhead_painter {
                 scene_.targets[i].surface);
     }
 
-    /// Finds what is known of whole triangles before they are drawn. The surfaces point to the answers.
+    /// Decides whole triangles before they are drawn, lit or dark. The surfaces point to the results.
     template <class Occlusion, executor E>
     std::vector<uninitialized_vector<shadow::known>> settle_triangles(const Occlusion& occlusion, E& ex) {
         std::vector<uninitialized_vector<shadow::known>> known;
         if constexpr (shadow::triangle_occlusion<Occlusion>)
             for (surface& s : surfaces_) {
-                // Of a mesh much finer than the picture, points are fewer than triangles.
+                // A mesh much finer than the picture has more triangles than points to test.
                 if (s.mesh.triangles.size() > 2 * out_.image.size()) continue;
                 known.push_back(occlusion.known_triangles(s.caster, view_.eye(), ex));
                 if (!known.back().empty()) s.known = known.back().data();
@@ -17380,7 +17570,7 @@ class overhead_painter {
         return known;
     }
 
-    /// Draws all surfaces: their light as far as it is known, and the visibility buffer.
+    /// Draws all surfaces: light where it is decided, and the visibility buffer.
     template <executor E>
     void draw_all(E& ex) {
         const overhead& rig = view_.rig();
@@ -18033,7 +18223,7 @@ struct poisson {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/geometry/detail/triangulate.hpp --------------------------------------------------
+// ------------ insonify/geometry/triangulate.hpp ---------------------------------------------------------
 // Triangulates polygons: convex ones as a fan, others by ear clipping.
 //
 // Based on: Joseph O'Rourke. Computational Geometry in C, 2nd edition, 1998, section 1.6 (clipping an ear changes
@@ -18253,12 +18443,6 @@ class obj_reader {
         const std::string_view ending = text.substr(text.size() - 4);
         return ending == ".obj" || ending == ".OBJ";
     }
-    static std::string quoted(std::string_view word) {
-        std::string text(1, '\'');
-        text += word.substr(0, 40);
-        text += word.size() > 40 ? "...'" : "'";
-        return text;
-    }
 
     // Elements.
 
@@ -18444,11 +18628,14 @@ inline void require_thickness(const char* name, float metres, float object_size)
     require(metres >= 1e-4f * object_size && metres <= object_size, name, metres,
             "at least 1/10000 of the object's size, at most that size");
 }
+inline void require_range(const char* name, float value, float low, float high, const char* expected) {
+    require(value >= low && value <= high, name, value, expected);
+}
 inline void require_share(const char* name, float value) {
     require(value >= 0 && value <= 1, name, value, "0 to 1");
 }
-inline void require_segments(const char* name, int value, int fewest, int most) {
-    require(value >= fewest && value <= most, name, value, to_text(fewest) + " to " + to_text(most));
+inline void require_segments(const char* name, int value, int low, int high) {
+    require(value >= low && value <= high, name, value, to_text(low) + " to " + to_text(high));
 }
 
 /// Appends the surface through sections with equal numbers of corners, closed at both ends. The two ends are cut into
@@ -18715,49 +18902,8 @@ inline mesh with_creases(const mesh& m, float angle = 0.7f) {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/geometry/objects/detail/lattice_noise.hpp ----------------------------------------
-// Noise for broken edges, relief and decay of objects.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace detail::inline INSONIFY_FLAGS {
-
-/// Value noise on the integer lattice, in [-1, 1], continuous with its slope.
-inline double lattice_noise(const glm::dvec3& p, const philox_key& key) {
-    std::int64_t cell[3];
-    double weight[3];
-    for (int i = 0; i < 3; ++i) {
-        cell[i] = numeric::floor_to_int(p[i]);
-        const double t = p[i] - static_cast<double>(cell[i]);
-        weight[i] = t * t * (3 - 2 * t);
-    }
-    double sum = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-        philox_counter at{};
-        double share = 1;
-        for (int i = 0; i < 3; ++i) {
-            const int step = (corner >> i) & 1;
-            at[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(cell[i] + step);
-            share *= step == 1 ? weight[i] : 1 - weight[i];
-        }
-        sum += share * (2 * uniform_open(philox4x32(at, key)[0]) - 1);
-    }
-    return sum;
-}
-
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/geometry/objects/detail/aeroplane_form.hpp ---------------------------------------
-// The form of an aeroplane: its parameters, the sections of its wings, and the bodies it is built from.
-//
-// Based on: Eastman N. Jacobs, Kenneth E. Ward, Robert M. Pinkerton. The Characteristics of 78 Related Airfoil
-// Sections. NACA Report 460, 1933 (thickness of the four-digit sections).
+// ------------ insonify/geometry/objects/aeroplane_parameters.hpp ----------------------------------------
+// Parameters of an aeroplane.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -18799,35 +18945,85 @@ inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a value outside its range
 inline void validate(const aeroplane& a) {
-    using detail::require;
+    using detail::require, detail::require_range;
     detail::require_size("aeroplane.length", a.length);
-    const auto in_range = [](const char* name, float value, float least, float most, const char* expected) {
-        require(value >= least && value <= most, name, value, expected);
-    };
     const float l = a.length;
-    in_range("aeroplane.span", a.span, l / 4, 4 * l, "length / 4 to 4 length");
-    in_range("aeroplane.fuselage_diameter", a.fuselage_diameter, l / 40, l / 4, "length / 40 to length / 4");
-    in_range("aeroplane.root_chord", a.root_chord, l / 20, l / 2, "length / 20 to length / 2");
-    in_range("aeroplane.tip_chord", a.tip_chord, l / 100, a.root_chord, "length / 100 to root_chord");
-    in_range("aeroplane.sweep", a.sweep, -0.5f, 0.8f, "-0.5 to 0.8 radians");
-    in_range("aeroplane.dihedral", a.dihedral, -0.2f, 0.3f, "-0.2 to 0.3 radians");
-    in_range("aeroplane.wing_position", a.wing_position, -0.1f, 0.4f, "-0.1 to 0.4");
-    in_range("aeroplane.tail_span", a.tail_span, 1.2f * a.fuselage_diameter, a.span,
-             "1.2 fuselage diameters to the span");
-    in_range("aeroplane.fin_height", a.fin_height, l / 50, l / 3, "length / 50 to length / 3");
+    require_range("aeroplane.span", a.span, l / 4, 4 * l, "length / 4 to 4 length");
+    require_range("aeroplane.fuselage_diameter", a.fuselage_diameter, l / 40, l / 4, "length / 40 to length / 4");
+    require_range("aeroplane.root_chord", a.root_chord, l / 20, l / 2, "length / 20 to length / 2");
+    require_range("aeroplane.tip_chord", a.tip_chord, l / 100, a.root_chord, "length / 100 to root_chord");
+    require_range("aeroplane.sweep", a.sweep, -0.5f, 0.8f, "-0.5 to 0.8 radians");
+    require_range("aeroplane.dihedral", a.dihedral, -0.2f, 0.3f, "-0.2 to 0.3 radians");
+    require_range("aeroplane.wing_position", a.wing_position, -0.1f, 0.4f, "-0.1 to 0.4");
+    require_range("aeroplane.tail_span", a.tail_span, 1.2f * a.fuselage_diameter, a.span,
+                  "1.2 fuselage diameters to the span");
+    require_range("aeroplane.fin_height", a.fin_height, l / 50, l / 3, "length / 50 to length / 3");
     require(a.engines >= 0 && a.engines <= 4, "aeroplane.engines", a.engines, "0 to 4");
     require(a.propeller_diameter == 0 || (a.propeller_diameter >= l / 50 && a.propeller_diameter <= l),
             "aeroplane.propeller_diameter", a.propeller_diameter, "0, or length / 50 to length");
     detail::require_share("aeroplane.port_wing", a.port_wing);
     detail::require_share("aeroplane.starboard_wing", a.starboard_wing);
-    in_range("aeroplane.torn_off", a.torn_off, 0, 10 * l, "0 to 10 lengths");
-    in_range("aeroplane.tail_gap", a.tail_gap, 0, 10 * l, "0 to 10 lengths");
-    in_range("aeroplane.tail_yaw", a.tail_yaw, -1.6f, 1.6f, "-1.6 to 1.6 radians");
+    require_range("aeroplane.torn_off", a.torn_off, 0, 10 * l, "0 to 10 lengths");
+    require_range("aeroplane.tail_gap", a.tail_gap, 0, 10 * l, "0 to 10 lengths");
+    require_range("aeroplane.tail_yaw", a.tail_yaw, -1.6f, 1.6f, "-1.6 to 1.6 radians");
     detail::require_segments("aeroplane.segments", a.segments, 8, 512);
 }
 
 }  // namespace INSONIFY_FLAGS
 
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/detail/lattice_noise.hpp ----------------------------------------
+// Noise for broken edges, relief and decay of objects.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// Value noise on the integer lattice, in [-1, 1], continuous with its slope.
+inline double lattice_noise(const glm::dvec3& p, const philox_key& key) {
+    std::int64_t cell[3];
+    double weight[3];
+    for (int i = 0; i < 3; ++i) {
+        cell[i] = numeric::floor_to_int(p[i]);
+        const double t = p[i] - static_cast<double>(cell[i]);
+        weight[i] = t * t * (3 - 2 * t);
+    }
+    double sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        philox_counter at{};
+        double share = 1;
+        for (int i = 0; i < 3; ++i) {
+            const int step = (corner >> i) & 1;
+            at[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(cell[i] + step);
+            share *= step == 1 ? weight[i] : 1 - weight[i];
+        }
+        sum += share * (2 * uniform_open(philox4x32(at, key)[0]) - 1);
+    }
+    return sum;
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/detail/aeroplane_form.hpp ---------------------------------------
+// The sections of an aeroplane's wings, and the bodies it is built from.
+//
+// Based on: Eastman N. Jacobs, Kenneth E. Ward, Robert M. Pinkerton. The Characteristics of 78 Related Airfoil
+// Sections. NACA Report 460, 1933 (thickness of the four-digit sections).
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// A wing, tailplane or fin: straight edges from root to tip, the tip rounded. `out` is a unit vector along its span,
@@ -19448,14 +19644,15 @@ inline std::vector<glm::dvec2> footprint(const mesh_view& m, const pose& placeme
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/geometry/objects/detail/hull_form.hpp --------------------------------------------
-// The form of a ship's hull: its parameters, and the lines that plating, decks and fittings follow.
+// ------------ insonify/geometry/objects/hull_parameters.hpp ---------------------------------------------
+// Parameters of a ship's hull.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+/// Form of the stern: rounded above the rudder, or a flat transom.
 enum class stern_type : std::uint8_t { cruiser, transom };
 
 /// A ship standing upright on z = 0 with its keel, bow towards +x, midships at the origin: an open shell of plating on
@@ -19497,34 +19694,43 @@ inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a value outside its range
 inline void validate(const hull& h) {
-    using detail::require;
+    using detail::require, detail::require_range;
     detail::require_size("hull.length", h.length);
-    const auto in_range = [](const char* name, float value, float least, float most, const char* expected) {
-        require(value >= least && value <= most, name, value, expected);
-    };
-    in_range("hull.beam", h.beam, h.length / 20, h.length / 2, "length / 20 to length / 2");
-    in_range("hull.depth", h.depth, h.beam / 5, 2 * h.beam, "beam / 5 to 2 beam");
-    in_range("hull.bulwark", h.bulwark, 0, h.depth / 2, "0 to depth / 2");
-    in_range("hull.sheer", h.sheer, 0, 4, "0 to 4");
+    require_range("hull.beam", h.beam, h.length / 20, h.length / 2, "length / 20 to length / 2");
+    require_range("hull.depth", h.depth, h.beam / 5, 2 * h.beam, "beam / 5 to 2 beam");
+    require_range("hull.bulwark", h.bulwark, 0, h.depth / 2, "0 to depth / 2");
+    require_range("hull.sheer", h.sheer, 0, 4, "0 to 4");
     require(h.stern == stern_type::cruiser || h.stern == stern_type::transom, "hull.stern", static_cast<int>(h.stern),
             "cruiser or transom");
-    in_range("hull.plating", h.plating, h.length / 2000, h.beam / 16, "length / 2000 to beam / 16");
-    in_range("hull.house_length", h.house_length, 0, 0.5f, "0 to 0.5");
-    in_range("hull.house_position", h.house_position, -0.35f, 0.3f, "-0.35 to 0.3");
+    require_range("hull.plating", h.plating, h.length / 2000, h.beam / 16, "length / 2000 to beam / 16");
+    require_range("hull.house_length", h.house_length, 0, 0.5f, "0 to 0.5");
+    require_range("hull.house_position", h.house_position, -0.35f, 0.3f, "-0.35 to 0.3");
     require(h.house_tiers >= 1 && h.house_tiers <= 4, "hull.house_tiers", h.house_tiers, "1 to 4");
     require(h.hatches >= 0 && h.hatches <= 8, "hull.hatches", h.hatches, "0 to 8");
     require(h.masts >= 0 && h.masts <= 4, "hull.masts", h.masts, "0 to 4");
-    in_range("hull.mast_height", h.mast_height, h.length / 1000, h.length, "length / 1000 to length");
-    in_range("hull.break_gap", h.break_gap, 0, h.length, "0 to length");
-    in_range("hull.break_position", h.break_position, -0.4f, 0.4f, "-0.4 to 0.4");
-    in_range("hull.break_yaw", h.break_yaw, -1.6f, 1.6f, "-1.6 to 1.6");
-    in_range("hull.break_roll", h.break_roll, -1.6f, 1.6f, "-1.6 to 1.6");
+    require_range("hull.mast_height", h.mast_height, h.length / 1000, h.length, "length / 1000 to length");
+    require_range("hull.break_gap", h.break_gap, 0, h.length, "0 to length");
+    require_range("hull.break_position", h.break_position, -0.4f, 0.4f, "-0.4 to 0.4");
+    require_range("hull.break_yaw", h.break_yaw, -1.6f, 1.6f, "-1.6 to 1.6");
+    require_range("hull.break_roll", h.break_roll, -1.6f, 1.6f, "-1.6 to 1.6");
     detail::require_share("hull.collapse", h.collapse);
     detail::require_segments("hull.segments", h.segments, 16, 1024);
 }
 
 }  // namespace INSONIFY_FLAGS
 
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/detail/hull_form.hpp --------------------------------------------
+// The lines of a ship's hull, which plating, decks and fittings follow.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// Positions on a hull: u runs from the stern (0) to the bow (1), w from the keel (0) to the bulwark's top (1), side is
@@ -20921,7 +21127,7 @@ class survey_reader {
             fail((at_ < text_.size() ? "the line ends before " : "the text ends before ") + std::string(what));
         double value = 0;
         if (insonify::detail::parse_number(digits, value) != insonify::detail::number_text::fine)
-            fail(quoted(digits) + " is not a number, expected " + what);
+            fail(insonify::detail::quoted(digits) + " is not a number, expected " + what);
         return value;
     }
     double finite(const char* what) {
@@ -20948,9 +21154,6 @@ class survey_reader {
         return text_[at] == '\n' || (text_[at] == '\r' && text_.substr(at + 1, 1) != "\n");
     }
     static bool is_blank(char c) { return (c >= '\t' && c <= '\r') || c == ' ' || c == ',' || c == ';'; }
-    static std::string quoted(std::string_view word) {
-        return "'" + std::string(word.substr(0, 40)) + (word.size() > 40 ? "...'" : "'");
-    }
 
     std::string_view text_, name_;
     std::size_t at_ = 0, line_ = 1;
@@ -21071,8 +21274,8 @@ inline heightfield parse_xyz(std::string_view text, double spacing, float scale 
     const std::int64_t width = (std::max)(right - left + 1, std::int64_t{2}),
                        height = (std::max)(high - low + 1, std::int64_t{2});
     // Bounds the memory that two distant soundings may cost.
-    const double most = (std::min)(1024.0 * static_cast<double>(soundings.size()), 67108864.0);
-    if (static_cast<double>(width) * static_cast<double>(height) > most)
+    const double max_vertices = (std::min)(1024.0 * static_cast<double>(soundings.size()), 67108864.0);
+    if (static_cast<double>(width) * static_cast<double>(height) > max_vertices)
         in.fail("the soundings are too far apart, more than 1024 vertices for each or 2^26: take a larger spacing");
 
     heightfield field{.heights = image<float>(static_cast<int>(width), static_cast<int>(height)),
@@ -21460,7 +21663,7 @@ class detailed_sampler {
     }
 
     const heightfield* field_;
-    power_law_noise surface_;
+    detail::power_law_noise surface_;
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -21756,8 +21959,8 @@ inline float height_after(const heap& e, const glm::dvec2& p, float height) {
 }
 
 /// The range of heights after an edit, for heights in a given range before it.
-inline height_range added(const height_range& ground, double least, double most) {
-    return {ground.lowest + (std::min)(1.00001 * least, 0.0), ground.highest + (std::max)(1.00001 * most, 0.0)};
+inline height_range added(const height_range& ground, double lowest, double highest) {
+    return {ground.lowest + (std::min)(1.00001 * lowest, 0.0), ground.highest + (std::max)(1.00001 * highest, 0.0)};
 }
 inline height_range including(const height_range& ground, double to) {
     return merge(ground, {to, to});
@@ -23210,8 +23413,8 @@ class bottom_tiles {
 
     /// Clamps a depth along a pitched fan to the seabed's bounds; NaN becomes the lower one.
     double clamped(const ping_frame& p, double depth) const {
-        const auto [least, most] = depths(p);
-        return depth > least ? (std::min)(depth, most) : least;
+        const auto [shallowest, deepest] = depths(p);
+        return depth > shallowest ? (std::min)(depth, deepest) : shallowest;
     }
 
     /// Vertices evaluated so far.
@@ -23246,9 +23449,9 @@ class bottom_tiles {
         std::int64_t last_x = -(std::int64_t{1} << 60), last_y = last_x;
         first_x_ = first_y_ = -last_x;
         for (const ping_frame& p : pings) {
-            const auto [least, most] = depths(p);
+            const auto [shallowest, deepest] = depths(p);
             for (const double x : {steps.from, steps[steps.count + 1]})
-                for (const double down : {least, most}) {
+                for (const double down : {shallowest, deepest}) {
                     const auto [tile_x, tile_y] = tile_of(p.below(x, down));
                     first_x_ = (std::min)(first_x_, tile_x), first_y_ = (std::min)(first_y_, tile_y);
                     last_x = (std::max)(last_x, tile_x), last_y = (std::max)(last_y, tile_y);
@@ -23263,12 +23466,13 @@ class bottom_tiles {
     /// Marks the tiles that the fans touch.
     void mark(std::span<const ping_frame> pings, const fan_steps& steps) {
         for (const ping_frame& p : pings) {
-            const auto [least, most] = depths(p);
+            const auto [shallowest, deepest] = depths(p);
             for (int i = 0; i < steps.count; ++i) {
-                auto [ax, ay] = tile_of(p.below(steps[i], least));
+                auto [ax, ay] = tile_of(p.below(steps[i], shallowest));
                 std::int64_t bx = ax, by = ay;
-                for (const auto& [x, y] : {tile_of(p.below(steps[i + 1], least)), tile_of(p.below(steps[i], most)),
-                                           tile_of(p.below(steps[i + 1], most))}) {
+                for (const auto& [x, y] :
+                     {tile_of(p.below(steps[i + 1], shallowest)), tile_of(p.below(steps[i], deepest)),
+                      tile_of(p.below(steps[i + 1], deepest))}) {
                     ax = (std::min)(ax, x), ay = (std::min)(ay, y);
                     bx = (std::max)(bx, x), by = (std::max)(by, y);
                 }
@@ -23355,6 +23559,85 @@ class bottom_tiles {
     std::vector<std::uint32_t> slots_;
     std::unique_ptr<bottom_vertex[]> vertices_;
     std::uint64_t sampled_ = 0;
+};
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/side_scan/detail/bottom_profile.hpp ----------------------------------------
+// The bottom below a ping: depths and slopes in the plane of its fan, at equal distances across the track.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// A vertex of the profile.
+struct bottom_point {
+    double down;  ///< below the sonar
+    float slope, slope_along;
+    std::uint8_t type;
+};
+
+/// Samples the profile of one ping after the other, reusing memory.
+class bottom_profile {
+  public:
+    /// @param start  distance across the track of the first vertex, at least
+    bottom_profile(const bottom_tiles& tiles, double step, double start, double range)
+        : tiles_(tiles),
+          step_(step),
+          first_(static_cast<std::size_t>(-numeric::floor_to_int(-start / step))),
+          end_(static_cast<std::size_t>(numeric::floor_to_int(range / step)) + 2) {}
+
+    void sample(const ping_frame& p) {
+        points_.resize(end_ - first_);
+        lowest_ = 1e30, highest_ = -1e30;
+        const glm::vec2 across(p.across()), along(p.along());
+        const double altitude = p.position().z;
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            bottom_vertex v;
+            double depth;
+            if (p.is_level()) {
+                const glm::dvec2 at = p.world(x(i), 0);
+                v = tiles_.at(at.x, at.y);
+                depth = altitude - static_cast<double>(v.height);
+            } else {
+                // The position depends on the depth: a fixed-point iteration, which converges on slopes below
+                // 1 / tan(pitch).
+                depth = i > 0 ? points_[i - 1].down : 0;
+                for (int step = 0; step < 5; ++step) {
+                    const glm::dvec2 at = p.below(x(i), tiles_.clamped(p, depth));
+                    v = tiles_.at(at.x, at.y);
+                    depth = (altitude - static_cast<double>(v.height)) / p.cosine_pitch();
+                }
+            }
+            const auto height = static_cast<double>(v.height);
+            points_[i] = {depth, v.slope_x * across.x + v.slope_y * across.y, v.slope_x * along.x + v.slope_y * along.y,
+                          static_cast<std::uint8_t>(v.type)};
+            lowest_ = (std::min)(height, lowest_);  // ignores NaN
+            highest_ = (std::max)(height, highest_);
+        }
+    }
+
+    std::size_t size() const { return points_.size(); }
+    const bottom_point& operator[](std::size_t i) const { return points_[i]; }
+    /// Distance across the track of a vertex.
+    double x(std::size_t i) const { return step_ * static_cast<double>(first_ + i); }
+    bool starts_at_nadir() const { return first_ == 0; }
+    /// Heights; lowest() > highest() if there is no bottom.
+    double lowest() const { return lowest_; }
+    double highest() const { return highest_; }
+
+  private:
+    const bottom_tiles& tiles_;
+    double step_;
+    std::size_t first_, end_;
+    double lowest_ = 0, highest_ = 0;
+    std::vector<bottom_point> points_;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -23541,6 +23824,65 @@ class ping_fan {
     double spacing_ = 1, first_ = 0;                          ///< on level ground: step of the tangent, first number
     double wall_first_ = 0, wall_from_ = 0, wall_angle_ = 1;  ///< beyond: first number, first angle, step
 };
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/side_scan/detail/range_axis.hpp --------------------------------------------
+// The range axis of a recording: which bins an echo is received in.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// Converts ranges to positions in bins.
+struct range_axis {
+    double first, bin;  ///< metres
+    bool counts_time;   ///< slant range, or else ground range
+
+    /// Position of an echo at a slant range along a ray.
+    float position(const ping_fan::ray& ray, double range) const {
+        const double r = counts_time ? range : range * ray.sine;
+        return static_cast<float>((r - first) / bin);
+    }
+    /// Position of the echo of a point, from its distances across and below the sonar.
+    double position(double x, double down) const {
+        const double r = counts_time ? numeric::square_root(x * x + down * down) : x;
+        return (r - first) / bin;
+    }
+    /// Half the number of bins between the edges of a ray on a surface along (dx, ddown).
+    float half_length(const ping_fan::ray& ray, double range, double dx, double ddown) const {
+        const double outwards = counts_time ? dx * ray.sine + ddown * ray.cosine : dx;
+        const double turning = dx * ray.cosine - ddown * ray.sine;
+        const double half = 0.5 * range * ray.width * outwards / (turning * bin);
+        return static_cast<float>(numeric::abs(half));
+    }
+};
+
+/// Calls `visit(bin, fraction, length)` for each of `count` bins between two positions: the fraction of the way that
+/// lies in the bin, and its length in bins.
+template <class Visit>
+void distribute(std::size_t count, float low, float high, const Visit& visit) {
+    const auto end = static_cast<float>(count);
+    if (!(high > 0 && low < end)) return;
+    const auto first = static_cast<std::int64_t>(low > 0 ? low : 0.0f);
+    const auto last =
+        (std::min)(static_cast<std::int64_t>((std::min)(high, end)), static_cast<std::int64_t>(count) - 1);
+    if (first == last && low >= static_cast<float>(first) && high <= static_cast<float>(first + 1)) {
+        visit(static_cast<std::size_t>(first), 1.0f, high - low);
+        return;
+    }
+    const float scale = 1 / (high - low);
+    for (std::int64_t b = first; b <= last; ++b) {
+        const float from = (std::max)(low, static_cast<float>(b)), to = (std::min)(high, static_cast<float>(b + 1));
+        if (to > from) visit(static_cast<std::size_t>(b), (to - from) * scale, to - from);
+    }
+}
 
 }  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
@@ -23929,14 +24271,14 @@ class target_hits {
 
     /// Divides a ray between segments that cover parts of its width and the nearest one that covers all of it.
     void divide(std::size_t k, std::span<const part> parts, bool is_met) {
-        // Above most_parts segments, the ray is sampled at fixed positions.
+        // Above max_parts segments, the ray is sampled at fixed positions.
         ends_.clear();
         ends_.push_back(ray_start(k)), ends_.push_back(ray_start(k) + 1);
-        if (parts.size() <= most_parts) {
+        if (parts.size() <= max_parts) {
             for (const part& p : parts) ends_.push_back(p.low), ends_.push_back(p.high);
         } else {
-            for (std::size_t i = 1; i < most_parts; ++i)
-                ends_.push_back(ray_start(k) + static_cast<double>(i) / static_cast<double>(most_parts));
+            for (std::size_t i = 1; i < max_parts; ++i)
+                ends_.push_back(ray_start(k) + static_cast<double>(i) / static_cast<double>(max_parts));
         }
         std::sort(ends_.begin(), ends_.end());
         for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
@@ -23968,7 +24310,7 @@ class target_hits {
         if (!(covered > 0.5)) occluders_[k].range = std::numeric_limits<double>::infinity();
     }
 
-    static constexpr std::size_t most_parts = 64;
+    static constexpr std::size_t max_parts = 64;
 
     const ping_fan* fan_ = nullptr;
     std::vector<segment> segments_;
@@ -23990,9 +24332,9 @@ INSONIFY_ARITHMETIC_END
 // The echo of one ping, bin by bin.
 //
 // Source and receiver coincide, so the first surface along a ray is both insonified and received. A ray's power is
-// distributed evenly over the bins between the ranges at which its edges meet the surface: level ground has no gaps and
-// no beats, whatever the ratio of rays to bins. Seabed that no ray meets is in shadow; its caster is what the rays met
-// in front of it.
+// distributed evenly over the bins between the ranges at which its edges meet the surface, so that level ground has no
+// gaps and no beats between rays and bins. Seabed that no ray meets is in shadow; its caster is the surface that the
+// rays met in front of it.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -24006,12 +24348,12 @@ struct echo_bin {
     float lit = 0;                 ///< length of seabed
     float dark_by_seabed = 0, dark_by_target = 0;
     float of_seabed = 0;  ///< length of the first type in the bin; a label_tally has the others
-    // The labels that have most of the bin.
+    // The labels with the largest sums in the bin.
     std::uint16_t instance = labels::no_instance, caster = labels::by_seabed;
     std::uint8_t seabed = labels::no_seabed;
 };
 
-/// Traces pings one after the other, reusing memory and, where possible, the fan.
+/// Traces one ping after the other, reusing memory and, if the attitude is the same, the fan.
 template <class Law, bool Labelled>
 class ping_tracer {
   public:
@@ -24021,18 +24363,14 @@ class ping_tracer {
         : scene_(s),
           materials_(materials),
           targets_(targets),
-          tiles_(bottom),
           law_(law),
           equation_(equation),
           relief_(relief),
           range_(static_cast<double>(window.range)),
-          first_range_(static_cast<double>(window.first_range)),
-          bin_(window.bin()),
-          step_((std::min)(bin_, cell)),
-          profile_step_((std::max)(step_, 0.5 * cell)),
-          first_point_(static_cast<std::size_t>(-numeric::floor_to_int(-start / profile_step_))),
+          axis_{static_cast<double>(window.first_range), window.bin(), window.counts_time},
+          step_((std::min)(axis_.bin, cell)),
+          profile_(bottom, (std::max)(step_, 0.5 * cell), start, range_),
           spacing_(window.ping_spacing),
-          counts_time_(window.counts_time),
           bins_(static_cast<std::size_t>(window.bins)),
           echoing_(bins_.size()),
           casting_(bins_.size()),
@@ -24046,18 +24384,19 @@ class ping_tracer {
     /// @returns one per bin, valid until the next call
     std::span<const echo_bin> trace(const ping_frame& p) {
         std::fill(bins_.begin(), bins_.end(), echo_bin{});
-        sample_bottom(p);
+        profile_.sample(p);
         const double altitude = p.position().z;
-        if (skips_foreground(relief_, first_range_, p)) lowest_ = relief_.lowest, highest_ = relief_.highest;
-        if (!(lowest_ <= highest_))  // no seabed here: rays for the targets alone
-            lowest_ = highest_ = (std::min)(foot_, altitude - range_ / 16);
+        double lowest = profile_.lowest(), highest = profile_.highest();
+        if (skips_foreground(relief_, axis_.first, p)) lowest = relief_.lowest, highest = relief_.highest;
+        if (!(lowest <= highest))  // no seabed here: rays for the targets alone
+            lowest = highest = (std::min)(foot_, altitude - range_ / 16);
         // In a pitched fan depths are longer; level ones bound the heights above.
         const double stretch = 1 / p.cosine_pitch();
-        const fan_shape shape = fan_shape::around((altitude - lowest_) * stretch, altitude - highest_,
-                                                  altitude - (std::max)(top_, highest_));
+        const fan_shape shape =
+            fan_shape::around((altitude - lowest) * stretch, altitude - highest, altitude - (std::max)(top_, highest));
         const std::array<double, 3> attitude{p.sine_roll(), p.cosine_roll(), p.cosine_pitch()};
         if (!(shape == fan_.shape()) || attitude != attitude_) build_fan(shape, attitude);
-        if (!(altitude > lowest_) || profile_[0].down <= 0) return bins_;  // the sonar is below the seabed
+        if (!(altitude > lowest) || profile_[0].down <= 0) return bins_;  // the sonar is below the seabed
         gather_targets(p);
         trace_bottom(p);
         if (has_targets_) add_target_echoes();
@@ -24065,10 +24404,10 @@ class ping_tracer {
         return bins_;
     }
 
-    /// Ground range up to which the bottom has to be sampled, metres.
+    /// Ground range up to which the bottom must be sampled, metres.
     static double reach(const range_bins& window, double cell) { return static_cast<double>(window.range) + 4 * cell; }
 
-    /// Ground range from which the bottom has to be sampled: nothing nearer is received in the window or occludes it.
+    /// Ground range from which the bottom must be sampled: nothing nearer is received in the window or occludes it.
     static double start(const range_bins& window, double cell, const seabed::height_range& relief, const ping_frame& p,
                         std::span<const sliced_target> targets) {
         const double altitude = p.position().z, first = static_cast<double>(window.first_range);
@@ -24083,7 +24422,7 @@ class ping_tracer {
     }
 
   private:
-    static constexpr float widest = 2;  ///< bins to either side of its ray that an echo may cover, at any slope
+    static constexpr float max_half_length = 2;  ///< bins that an echo covers on either side of its ray, at any slope
 
     /// Whether a ping is so high above the bottom that the bottom in front of the window can be skipped.
     static bool skips_foreground(const seabed::height_range& relief, double first_range, const ping_frame& p) {
@@ -24092,18 +24431,13 @@ class ping_tracer {
                2 * relief.highest < altitude;
     }
 
-    struct bottom_point {
-        double down;  ///< below the sonar
-        float slope, slope_along;
-        std::uint8_t type;
-    };
     /// Builds the fan, and the power per metre of range of each ray.
     void build_fan(const fan_shape& shape, const std::array<double, 3>& attitude) {
         const auto slant = [&](double r) {
-            return counts_time_ ? r : numeric::square_root(r * r + shape.above_lowest * shape.above_lowest);
+            return axis_.counts_time ? r : numeric::square_root(r * r + shape.above_lowest * shape.above_lowest);
         };
         farthest_ = slant(range_);
-        fan_ = ping_fan(shape, step_, slant(first_range_), farthest_);
+        fan_ = ping_fan(shape, step_, slant(axis_.first), farthest_);
         ray_power_.resize(fan_.size());
         attitude_ = attitude;
         const auto [sine_roll, cosine_roll, cosine_pitch] = attitude;
@@ -24115,41 +24449,6 @@ class ping_tracer {
             ray_power_[k] = thickness * static_cast<float>(fan_[k].width * equation_.over_direction(across, down));
         }
     }
-
-    /// Samples the profile below the ping, from first_point_ outwards.
-    void sample_bottom(const ping_frame& p) {
-        const auto end = static_cast<std::size_t>(numeric::floor_to_int(range_ / profile_step_)) + 2;
-        profile_.resize(end - first_point_);
-        lowest_ = 1e30, highest_ = -1e30;
-        const glm::vec2 across(p.across()), along(p.along());
-        const double altitude = p.position().z;
-        for (std::size_t i = 0; i < profile_.size(); ++i) {
-            bottom_vertex v;
-            double depth;
-            if (p.is_level()) {
-                const glm::dvec2 at = p.world(x_of(i), 0);
-                v = tiles_.at(at.x, at.y);
-                depth = altitude - static_cast<double>(v.height);
-            } else {
-                // The position depends on the depth: a fixed-point iteration, which slopes below 1 / tan(pitch) let
-                // converge.
-                depth = i > 0 ? profile_[i - 1].down : 0;
-                for (int step = 0; step < 5; ++step) {
-                    const glm::dvec2 at = p.below(x_of(i), tiles_.clamped(p, depth));
-                    v = tiles_.at(at.x, at.y);
-                    depth = (altitude - static_cast<double>(v.height)) / p.cosine_pitch();
-                }
-            }
-            const auto height = static_cast<double>(v.height);
-            profile_[i] = {depth, v.slope_x * across.x + v.slope_y * across.y,
-                           v.slope_x * along.x + v.slope_y * along.y, static_cast<std::uint8_t>(v.type)};
-            lowest_ = (std::min)(height, lowest_);  // ignores NaN
-            highest_ = (std::max)(height, highest_);
-        }
-    }
-
-    /// Distance across the track of a point of the profile.
-    double x_of(std::size_t i) const { return profile_step_ * static_cast<double>(first_point_ + i); }
 
     void gather_targets(const ping_frame& p) {
         has_targets_ = false;
@@ -24164,16 +24463,16 @@ class ping_tracer {
         if (has_targets_) hits_.resolve();
     }
 
-    /// Walks outwards along the profile. Rays meet it in order; bottom below the last ray that met it is in shadow.
+    /// Goes outwards along the profile, which rays meet in order. Bottom below the last ray that met it is in shadow.
     void trace_bottom(const ping_frame& ping) {
         double horizon_x = 0, horizon_down = 1;
         // Rays that meet the bottom in front of the profile go no further.
-        std::size_t k = first_point_ > 0 ? fan_.first_over(x_of(0), profile_[0].down) : 0;
+        std::size_t k = profile_.starts_at_nadir() ? 0 : fan_.first_over(profile_.x(0), profile_[0].down);
         if (has_targets_)
             for (std::size_t j = 0; j < k; ++j) hits_.cut_off(j, 0);
         const std::size_t rays = fan_.size();
         for (std::size_t i = 0; i + 1 < profile_.size(); ++i) {
-            const double px = x_of(i), qx = x_of(i + 1);
+            const double px = profile_.x(i), qx = profile_.x(i + 1);
             const bottom_point &p = profile_[i], &q = profile_[i + 1];
             const double dx = qx - px, ddown = q.down - p.down;
             const double above = qx * horizon_down - q.down * horizon_x;
@@ -24199,7 +24498,7 @@ class ping_tracer {
                     from = between;
                 }
                 last_met = f;
-                if (range <= farthest_ + bin_)
+                if (range <= farthest_ + axis_.bin)
                     add_bottom_echo(ping, ray, k, range, dx, ddown, p, q, static_cast<float>(f));
             }
             if constexpr (Labelled)
@@ -24215,7 +24514,8 @@ class ping_tracer {
         // Removes targets that are buried or behind a rise.
         const double covered = has_targets_ ? hits_.cut_off(k, range) : 0;
         if (covered >= 1) return;
-        const float at = column(ray, range), half = (std::min)(half_length(ray, range, dx, ddown), widest);
+        const float at = axis_.position(ray, range),
+                    half = (std::min)(axis_.half_length(ray, range, dx, ddown), max_half_length);
         const auto sine = static_cast<float>(ray.sine), cosine = static_cast<float>(ray.cosine);
         const float slope = p.slope + f * (q.slope - p.slope);
         const float slope_along = p.slope_along + f * (q.slope_along - p.slope_along);
@@ -24224,7 +24524,7 @@ class ping_tracer {
                                    numeric::square_root(1 + slope * slope + slope_along * slope_along);
         const float power = static_cast<float>(1 - covered) * power_of(k, range, grazing_sine) *
                             materials_[static_cast<std::size_t>(f < 0.5f ? p.type : q.type)].reflectivity;
-        distribute(at - half, at + half,
+        distribute(bins_.size(), at - half, at + half,
                    [&](std::size_t bin, float fraction, float) { bins_[bin].bottom += power * fraction; });
     }
 
@@ -24233,8 +24533,8 @@ class ping_tracer {
             const double range = numeric::square_root(hit.square_range());
             const float power =
                 static_cast<float>(hit.fraction) * power_of(k, range, hit.grazing_sine) * hit.reflectivity;
-            const double a = column(hit.x0, hit.down0), b = column(hit.x1, hit.down1);
-            distribute(static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
+            const double a = axis_.position(hit.x0, hit.down0), b = axis_.position(hit.x1, hit.down1);
+            distribute(bins_.size(), static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
                        [&](std::size_t bin, float fraction, float) {
                            bins_[bin].target += power * fraction;
                            if constexpr (Labelled) echoing_.add(bin, hit.instance, power * fraction);
@@ -24242,7 +24542,7 @@ class ping_tracer {
         });
     }
 
-    /// Sets the labels that have most of each bin.
+    /// Sets the labels with the largest sum in each bin.
     void label_bins() {
         if (!types_.empty())
             for (std::size_t b = 0; b < bins_.size(); ++b) {
@@ -24274,9 +24574,10 @@ class ping_tracer {
     void label(const bottom_point& p, const bottom_point& q, double px, double dx, double from, double to,
                std::uint16_t caster) {
         const double down = q.down - p.down;
-        const double a = column(px + from * dx, p.down + from * down), b = column(px + to * dx, p.down + to * down);
+        const double a = axis_.position(px + from * dx, p.down + from * down),
+                     b = axis_.position(px + to * dx, p.down + to * down);
         const std::uint8_t type = from + to < 1 ? p.type : q.type;
-        distribute(static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
+        distribute(bins_.size(), static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
                    [&](std::size_t number, float, float length) {
                        echo_bin& bin = bins_[number];
                        if (caster == labels::is_lit)
@@ -24293,43 +24594,6 @@ class ping_tracer {
                    });
     }
 
-    /// Calls `visit(bin, fraction, length)` for the bins between two positions.
-    template <class Visit>
-    void distribute(float low, float high, const Visit& visit) {
-        const auto count = static_cast<float>(bins_.size());
-        if (!(high > 0 && low < count)) return;
-        const auto first = static_cast<std::int64_t>(low > 0 ? low : 0.0f);
-        const auto last =
-            (std::min)(static_cast<std::int64_t>((std::min)(high, count)), static_cast<std::int64_t>(bins_.size()) - 1);
-        if (first == last && low >= static_cast<float>(first) && high <= static_cast<float>(first + 1)) {
-            visit(static_cast<std::size_t>(first), 1.0f, high - low);
-            return;
-        }
-        const float scale = 1 / (high - low);
-        for (std::int64_t b = first; b <= last; ++b) {
-            const float from = (std::max)(low, static_cast<float>(b)), to = (std::min)(high, static_cast<float>(b + 1));
-            if (to > from) visit(static_cast<std::size_t>(b), (to - from) * scale, to - from);
-        }
-    }
-
-    /// Position of an echo, in bins.
-    float column(const ping_fan::ray& ray, double range) const {
-        const double r = counts_time_ ? range : range * ray.sine;
-        return static_cast<float>((r - first_range_) / bin_);
-    }
-    double column(double x, double down) const {
-        const double r = counts_time_ ? numeric::square_root(x * x + down * down) : x;
-        return (r - first_range_) / bin_;
-    }
-
-    /// Half the number of bins between the edges of a ray on a surface along (dx, ddown).
-    float half_length(const ping_fan::ray& ray, double range, double dx, double ddown) const {
-        const double outwards = counts_time_ ? dx * ray.sine + ddown * ray.cosine : dx;
-        const double turning = dx * ray.cosine - ddown * ray.sine;
-        const double half = 0.5 * range * ray.width * outwards / (turning * bin_);
-        return static_cast<float>(numeric::abs(half));
-    }
-
     /// Power that a surface of reflectivity 1 returns from a ray: the ray's cross-section over the sine of the grazing
     /// angle, times the law.
     float power_of(std::size_t k, double range, float grazing_sine) const {
@@ -24340,20 +24604,18 @@ class ping_tracer {
     const scene& scene_;
     const bottom_materials& materials_;
     std::span<const sliced_target> targets_;
-    const bottom_tiles& tiles_;
     Law law_;
     const equation_interface& equation_;
     seabed::height_range relief_;
-    double range_, first_range_, bin_, step_, profile_step_, farthest_ = 0;
-    std::size_t first_point_;
+    double range_, farthest_ = 0;  ///< of the last bin: on the range axis, and slant
+    range_axis axis_;
+    double step_;
+    bottom_profile profile_;
     float spacing_;
-    bool counts_time_;
     double top_ = -1e30, foot_ = 1e30;         ///< of all targets
-    double lowest_ = 0, highest_ = 0;          ///< of the bottom below the current ping
     std::array<double, 3> attitude_{0, 1, 1};  ///< sine and cosine of the roll, cosine of the pitch
     ping_fan fan_;
     std::vector<float> ray_power_;
-    std::vector<bottom_point> profile_;
     target_hits hits_;
     bool has_targets_ = false;
     std::vector<echo_bin> bins_;
@@ -24730,12 +24992,12 @@ class ping_noise {
 /// Draws of unit power for bins in a row, real and imaginary parts in turn: those of normal_pair, to the same bits. One
 /// block of Philox serves two bins.
 struct speckle_draw_kernel {
-    static constexpr std::size_t most_lanes = 4;  ///< blocks at a time
+    static constexpr std::size_t max_lanes = 4;  ///< blocks at a time
 
     philox_key key;
     philox_counter first;  ///< counter of the first block; its first word, the bin, grows by 2 from block to block
     float* into;
-    std::size_t blocks;  ///< `into` holds 4 values for each, and for as many more as make a multiple of most_lanes
+    std::size_t blocks;  ///< `into` holds 4 values for each, and for as many more as make a multiple of max_lanes
 
     template <int N>
     INSONIFY_INLINE void run() const {
@@ -24794,7 +25056,7 @@ class speckle_field {
     void row(std::int64_t ping, std::uint32_t look, std::span<float> out) const {
         const std::size_t reach = across_.size() - 1, margin = reach + (reach & 1);
         const std::size_t blocks = (bins_ + 2 * margin + 1) / 2;
-        std::vector<float> white(4 * (blocks + speckle_draw_kernel::most_lanes));
+        std::vector<float> white(4 * (blocks + speckle_draw_kernel::max_lanes));
         const std::uint32_t first = 0u - static_cast<std::uint32_t>(margin);
         dispatch(speckle_draw_kernel{noise_.key(), ping_noise::counter(ping, first, look), white.data(), blocks},
                  best_isa());
@@ -25330,7 +25592,7 @@ class scene_occlusion {
     template <executor_argument E = serial_executor>
     point_light_shares test(std::span<const glm::dvec3> at, E&& ex = {}) const {
         point_light_shares all{std::vector<float>(at.size()), std::vector<std::uint16_t>(at.size())};
-        bulk_ranges(ex, at.size(), most_points, [&](std::size_t first, std::size_t last) {
+        bulk_ranges(ex, at.size(), max_points, [&](std::size_t first, std::size_t last) {
             const std::size_t count = last - first;
             std::vector<double> x(count), y(count), z(count);
             for (std::size_t i = 0; i < count; ++i) {
@@ -25343,14 +25605,13 @@ class scene_occlusion {
             built_.test(shadow::points{x, y, z, none, none},
                         shadow::shares{std::span(all.lit).subspan(first, count), caster});
             for (std::size_t i = 0; i < count; ++i)
-                if (caster[i] != shadow::invalid_id)
-                    all.shadow[first + i] = detail::name_of_caster(caster[i], targets_);
+                if (caster[i] != shadow::invalid_id) all.shadow[first + i] = detail::shadow_label(caster[i], targets_);
         });
         return all;
     }
 
   private:
-    static constexpr std::size_t most_points = 16384;
+    static constexpr std::size_t max_points = 16384;
 
     struct placed {
         shared_mesh shape;

@@ -181,13 +181,13 @@ class Slurm(unittest.TestCase):
         self.assertEqual((name, merge_name), ("array", "merge"))
         return array, merge
 
-    def test_an_array_and_its_merge_are_one_run(self):
+    def test_an_array_and_its_merge_equal_one_run(self):
         out = self.home / "a"
         _, merge = self.submit(4, "--", "--out", out, *SET)
         self.cluster.wait(lambda: self.cluster.state(merge) == {"COMPLETED"}, 120)
         self.assertEqual(self.whole, digest(out))
 
-    def test_a_node_that_dies_in_the_middle_costs_no_image(self):
+    def test_a_failing_node_loses_no_image(self):
         out = self.home / "b"
         array, merge = self.submit(4, "--", "--out", out, *SET, "--size", 1024)
         self.cluster.wait(lambda: len(list(out.rglob("records/*/*.json"))) > 2, 60)
@@ -203,7 +203,7 @@ class Slurm(unittest.TestCase):
                        stdout=subprocess.DEVNULL)
         self.assertEqual(digest(self.home / "large"), digest(out))
 
-    def test_tasks_that_failed_are_submitted_again_and_the_merge_waits_for_all(self):
+    def test_failed_tasks_are_submitted_again_and_the_merge_waits_for_all(self):
         out = self.home / "c"
         array, merge = self.submit("--tasks", "0,2", 3, "--", "--out", out, *SET)
         self.cluster.wait(lambda: self.cluster.state(merge) <= {"FAILED", "COMPLETED", "CANCELLED"}, 120)
@@ -231,7 +231,7 @@ class Submission(unittest.TestCase):
         return subprocess.run([ROOT / "tools" / "slurm", *map(str, words)], env=environment, capture_output=True,
                               text=True, cwd=self.folder)
 
-    def test_names_with_blanks_reach_the_shell_whole(self):
+    def test_names_with_blanks_are_quoted(self):
         self.assertEqual(self.submit(8, "--time=1", "--", "--out", "my set", "--count=9").stdout, "array 17 merge 17\n")
         first, second = (self.folder / "submitted").read_text().split("\n\n")[:2]
         self.assertIn("--array=0-7", first)
@@ -241,12 +241,12 @@ class Submission(unittest.TestCase):
         self.assertIn("--dependency=afterok:17", second)
         self.assertIn(rf"/opt/my\ programs/merge_dataset {self.folder}/my\ set", second)
 
-    def test_what_cannot_be_is_refused_before_anything_is_submitted(self):
-        for reason, words in {"is no number of shards": [0, "--", "--out", "a"], "-- is missing": [3, "--out", "a"],
+    def test_invalid_arguments_are_refused_before_submitting(self):
+        for reason, words in {"is not a number of shards": [0, "--", "--out", "a"], "-- and options of generate_dataset are missing": [3, "--out", "a"],
                               "--out FOLDER is missing": [3, "--", "--count", 4],
-                              "--shard is set here": [3, "--", "--out", "a", "--shard", "1/3"],
-                              "is no list": ["--tasks", "x", 3, "--", "--out", "a"],
-                              "--array=0 is set here": [3, "--array=0", "--", "--out", "a"]}.items():
+                              "--shard is set by this script": [3, "--", "--out", "a", "--shard", "1/3"],
+                              "is not a list": ["--tasks", "x", 3, "--", "--out", "a"],
+                              "--array=0 is set by this script": [3, "--array=0", "--", "--out", "a"]}.items():
             result = self.submit(*words)
             self.assertEqual(result.returncode, 2)
             self.assertIn(reason, result.stderr)

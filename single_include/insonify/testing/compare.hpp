@@ -54,14 +54,14 @@ struct channels_of<rgb<Sample>> {
 /// The largest absolute difference over the channels. NaN equals NaN, and is infinitely far from anything else.
 template <class Pixel>
 double pixel_distance(const Pixel& a, const Pixel& b) {
-    double most = 0;
+    double largest = 0;
     for (int c = 0; c < channels_of<Pixel>::count; ++c) {
         const double p = channels_of<Pixel>::at(a, c), q = channels_of<Pixel>::at(b, c);
         if (p == q || (p != p && q != q)) continue;
         const double off = p < q ? q - p : p - q;
-        most = off == off ? (std::max)(most, off) : std::numeric_limits<double>::infinity();
+        largest = off == off ? (std::max)(largest, off) : std::numeric_limits<double>::infinity();
     }
-    return most;
+    return largest;
 }
 
 inline std::string size_text(int width, int height) {
@@ -120,8 +120,8 @@ image<rgb8> difference_picture(const image<Pixel>& found, const image<Pixel>& ex
         return sum / detail::channels_of<Pixel>::count;
     };
     double brightest = 0, largest = 0;
-    const auto note = [](double& most, double value) {
-        if (numeric::is_finite(value) && value > most) most = value;
+    const auto note = [](double& largest, double value) {
+        if (numeric::is_finite(value) && value > largest) largest = value;
     };
     for (int y = 0; y < found.height(); ++y)
         for (int x = 0; x < found.width(); ++x) {
