@@ -1,11 +1,17 @@
 #!/usr/bin/env python3
-"""Opens the playground in headless Chromium, moves every control and checks what the page shows: check.py index.html
+"""Opens the playground in headless Chromium, moves every control and checks what the page shows:
+check.py index.html [include folder, compiler...]
 
-Prints the time of a frame for each kind of picture. Exit 0: fine; 1: a fault; 77: no Chromium here.
+With a compiler, the programs that the page shows have to compile, in the compiled form, which names most headers. Prints the
+time of a frame for each kind of picture. Exit 0: fine; 1: a fault; 77: no Chromium here.
 """
 
+import concurrent.futures
 import json
+import os
 import pathlib
+import re
+import subprocess
 import sys
 import tempfile
 
@@ -15,7 +21,7 @@ from browser import Browser, chromium_program
 # Runs inside the page and returns what it found as JSON.
 DRIVER = """
 (async () => {
-  const found = {faults: [], frames: {}};
+  const found = {faults: [], frames: {}, programs: []};
   const root = document.documentElement, form = document.getElementById("controls");
   const canvas = document.getElementById("picture");
   const frames = () => Number(root.dataset.frames || 0);
@@ -30,6 +36,8 @@ DRIVER = """
     form.elements[name].value = value;
     form.dispatchEvent(new Event("input"));
     await until(name + " = " + value + " is drawn", () => frames() > before);
+    const shown = document.getElementById("code").textContent;
+    if (!found.programs.includes(shown)) found.programs.push(shown);
   };
   await until("the first frame", () => frames() > 0);
   for (const mode of [0, 1, 2]) {
@@ -63,6 +71,32 @@ DRIVER = """
 """
 
 
+STB = "int stbi_write_png_to_func(void (*)(void*, void*, int), void*, int, int, int, const void*, int);\n"
+
+
+def compiler_faults(programs, include, compiler):
+    """What a compiler says to the programs, in the compiled form: a unit for each set of includes."""
+    if len(programs) < 50:
+        yield f"the page showed {len(programs)} programs"
+    units = {}
+    for program in programs:
+        headers = "\n".join(re.findall(r"#include.*", program))
+        body = re.sub(r"#include.*\n", "", program).replace("int main()", f"void draw_{len(units.get(headers, []))}()")
+        units.setdefault(headers, []).append(body.replace("namespace in = insonify;", "").replace("\nusing ", "\n// using "))
+    with tempfile.TemporaryDirectory() as folder:
+        pathlib.Path(folder, "stb_image_write.h").write_text('extern "C" ' + STB)
+
+        def fault(unit):
+            headers, bodies = unit
+            text = "\n".join([headers, "namespace in = insonify;", "using namespace in::literals;", *bodies])
+            done = subprocess.run([*compiler, "-std=c++20", "-fsyntax-only", "-DINSONIFY_COMPILED", f"-I{include}",
+                                   f"-I{folder}", "-x", "c++", "-"], input=text, capture_output=True, text=True)
+            return f"a program does not compile: {done.stderr[:2000]}" if done.returncode != 0 else None
+
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            yield from filter(None, pool.map(fault, units.items()))
+
+
 def main():
     chromium = chromium_program()
     if chromium is None:
@@ -80,6 +114,8 @@ def main():
             browser.process.kill()
             browser.process.wait()
     faults = list(browser.complaints()) + found["faults"]
+    if len(sys.argv) > 2:
+        faults += compiler_faults(found["programs"], sys.argv[2], sys.argv[3:])
     if size > 1.5e6:
         faults.append(f"{size} bytes, at most 1.5 million")
     print(f"{size / 1e6:.2f} MB; milliseconds a frame of 512 x 512:", found["frames"])
