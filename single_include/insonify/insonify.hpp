@@ -22,7 +22,9 @@
 // LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
 // OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE
 // SOFTWARE.
-#pragma once
+
+#if !defined(INSONIFY_ONE_FILE)
+#define INSONIFY_ONE_FILE
 
 // ------------ insonify/version.hpp ----------------------------------------------------------------------
 // The version: three numbers, read by CMake too, and nothing else.
@@ -10906,7 +10908,11 @@ visibility visible_triangles(const scene& s, const overhead& rig,
 
 INSONIFY_ARITHMETIC_END
 
-#if INSONIFY_BODIES
+#endif
+
+// What units of the compiled form do without, unless they name one of its headers.
+#if (INSONIFY_BODIES || defined(INSONIFY_EXTRAS)) && !defined(INSONIFY_HAS_EXTRAS)
+#define INSONIFY_HAS_EXTRAS
 
 // ------------ insonify/accuracy/metrics.hpp -------------------------------------------------------------
 // Differences between an image or a mask and its ground truth.
@@ -26169,6 +26175,9 @@ INSONIFY_ARITHMETIC_END
 
 #endif
 
+#if !defined(INSONIFY_ONE_FILE_ENDED)
+#define INSONIFY_ONE_FILE_ENDED
+
 // ------------ insonify/compiled.hpp ---------------------------------------------------------------------
 // The compiled form: pictures and seabeds are compiled once, in a unit of its own, instead of in every unit that draws.
 //
@@ -26288,5 +26297,7 @@ INSONIFY_RECORDINGS(INSONIFY_RECORDING)
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
+
+#endif
 
 #endif

@@ -1,0 +1,5 @@
+#pragma once
+
+#if !defined(INSONIFY_ONE_FILE)
+#include <insonify/insonify.hpp>
+#endif
