@@ -115,7 +115,9 @@
 #include <insonify/seabed/sculpt.hpp>
 #include <insonify/seabed/tessellate.hpp>
 #include <insonify/shadow/exact.hpp>
+#include <insonify/shadow/height_map.hpp>
 #include <insonify/shadow/map.hpp>
+#include <insonify/shadow/map_lookup.hpp>
 #include <insonify/shadow/penumbra.hpp>
 #include <insonify/sonar/bottom_tone.hpp>
 #include <insonify/sonar/instruments.hpp>

@@ -6,7 +6,7 @@
 #pragma once
 
 #include <insonify/core/executor.hpp>
-#include <insonify/shadow/detail/lookup.hpp>
+#include <insonify/shadow/map_lookup.hpp>
 #include <insonify/shadow/policy.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN

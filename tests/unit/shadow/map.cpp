@@ -4,7 +4,7 @@
 #include <insonify/geometry/cube.hpp>
 #include <insonify/seabed/sample.hpp>
 #include <insonify/seabed/tessellate.hpp>
-#include <insonify/shadow/detail/lookup.hpp>
+#include <insonify/shadow/map_lookup.hpp>
 
 #include <cmath>
 

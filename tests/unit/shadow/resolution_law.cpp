@@ -4,7 +4,7 @@
 // texels.
 #include <insonify/core/random.hpp>
 #include <insonify/geometry/bounds.hpp>
-#include <insonify/shadow/detail/lookup.hpp>
+#include <insonify/shadow/map_lookup.hpp>
 
 #include <cmath>
 

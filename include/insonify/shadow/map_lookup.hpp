@@ -9,7 +9,7 @@
 // Based on: William T. Reeves, David H. Salesin, Robert L. Cook. Rendering Antialiased Shadows with Depth Maps. 1987
 #pragma once
 
-#include <insonify/shadow/detail/height_map.hpp>
+#include <insonify/shadow/height_map.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
