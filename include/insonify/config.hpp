@@ -44,9 +44,9 @@
 #endif
 
 // Fused multiply-add rounds once where a product and a sum round twice, so a compiler that may fuse changes bytes.
-// Every header that computes with floats stands between these two, which forbid it there whatever the user's flags
-// allow. (clang heeds no pragma under an explicit -ffp-contract=fast; fast-honor-pragmas is the same and does.) g++ is
-// also asked not to remark on how wide vectors are passed: they stay inside always-inlined code.
+// Headers with floating-point arithmetic are enclosed by these two macros, which forbid it under any flags. (clang
+// ignores the pragma under an explicit -ffp-contract=fast, but not under fast-honor-pragmas.) They also suppress g++'s
+// note on the ABI of wide vectors, which are passed only within always-inlined code.
 #if defined(__clang__) && !defined(__x86_64__) && !defined(__i386__)
 // No float_control there. WebAssembly has no fused instruction.
 #if defined(__wasm__)
@@ -101,9 +101,9 @@
 #define INSONIFY_DISPATCH 0
 #endif
 
-// Whether a kernel is one function, whatever it calls. With 0 programs compile a little faster and run several times as
-// long, to the same bytes. Builds without optimization choose 0, as do the sanitizers, because what they add would
-// compile for minutes.
+// Whether all calls of a kernel are inlined into one function. With 0, programs compile a little faster and run several
+// times longer, with the same bytes. The default is 0 without optimization and under sanitizers, whose instrumentation
+// would take minutes to compile.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define INSONIFY_SANITIZED 1
 #elif defined(__has_feature)

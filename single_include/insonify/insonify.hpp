@@ -77,9 +77,9 @@
 #endif
 
 // Fused multiply-add rounds once where a product and a sum round twice, so a compiler that may fuse changes bytes.
-// Every header that computes with floats stands between these two, which forbid it there whatever the user's flags
-// allow. (clang heeds no pragma under an explicit -ffp-contract=fast; fast-honor-pragmas is the same and does.) g++ is
-// also asked not to remark on how wide vectors are passed: they stay inside always-inlined code.
+// Headers with floating-point arithmetic are enclosed by these two macros, which forbid it under any flags. (clang
+// ignores the pragma under an explicit -ffp-contract=fast, but not under fast-honor-pragmas.) They also suppress g++'s
+// note on the ABI of wide vectors, which are passed only within always-inlined code.
 #if defined(__clang__) && !defined(__x86_64__) && !defined(__i386__)
 // No float_control there. WebAssembly has no fused instruction.
 #if defined(__wasm__)
@@ -134,9 +134,9 @@
 #define INSONIFY_DISPATCH 0
 #endif
 
-// Whether a kernel is one function, whatever it calls. With 0 programs compile a little faster and run several times as
-// long, to the same bytes. Builds without optimization choose 0, as do the sanitizers, because what they add would
-// compile for minutes.
+// Whether all calls of a kernel are inlined into one function. With 0, programs compile a little faster and run several
+// times longer, with the same bytes. The default is 0 without optimization and under sanitizers, whose instrumentation
+// would take minutes to compile.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define INSONIFY_SANITIZED 1
 #elif defined(__has_feature)
@@ -618,7 +618,7 @@ class executor_ref {
 inline namespace INSONIFY_FLAGS {
 
 /// Splits [0, count) into runs of `grain` and calls `fn(first, last)` for each. The split depends on the arguments
-/// alone, so whatever is summed per run comes out the same on any executor.
+/// alone, so that sums per run are the same on any executor.
 template <executor E, std::invocable<std::size_t, std::size_t> Fn>
 void bulk_ranges(E& ex, std::size_t count, std::size_t grain, Fn&& fn) {
     detail::require(grain > 0, "grain", grain, "at least 1");
@@ -6256,21 +6256,21 @@ struct regular_grid {
     glm::dvec2 origin{0}, right{0}, up{0};  ///< metres, in the mesh's frame
     /// Cells are cut from vertex (i, j) to (i + 1, j + 1), or else from (i + 1, j) to (i, j + 1).
     bool is_rising = true;
-    double off = 0x1p-12;  ///< how far vertices may lie beside their places, in steps
+    double off = 0x1p-12;  ///< bound of the distance of vertices from the lattice, in steps
 };
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Compares numbers, Period of them a block, with what goes on in equal steps from block to block.
+/// Compares numbers with a pattern of Period terms, each of which increases by a constant from block to block.
 template <int Period>
 struct pattern_kernel {
     struct term {
-        std::uint32_t start, step;  ///< in the first block, and from block to block
+        std::uint32_t start, step;  ///< value in the first block, and increment
     };
     const std::uint32_t* numbers;
     std::size_t blocks;
     const term (&pattern)[static_cast<unsigned>(Period)];
-    std::atomic<bool>& differs;  ///< set if a number is another
+    std::atomic<bool>& differs;  ///< set if a number differs from the pattern
 
     template <int N>
     INSONIFY_INLINE void run() const {
@@ -6348,8 +6348,9 @@ struct cell_cut {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The regular grid that a mesh's vertices lie on, if they do and all heights are finite.
-/// @param off  how far vertices may lie beside their places, in steps; the grid tells how far they do
+/// The regular grid of a mesh's vertices; none if they are not on one, or a height is not finite.
+/// @param off  distance from the lattice up to which vertices are accepted, in steps; `regular_grid::off` of the result
+///             bounds the actual distance
 template <executor_argument E = serial_executor>
 std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, double off = 1.0 / 256) {
     if (m.triangles.size() < 2) return std::nullopt;
@@ -11416,7 +11417,7 @@ struct double_double {
         return quick_sum(q1, q2) + double_double{r2.high / b.high, 0};
     }
 
-    /// The nearest float. Rounding the upper half to odd first keeps the lower one's say in ties.
+    /// The nearest float. The upper half is first rounded to odd, so that the lower half decides ties.
     float to_float() const {
         auto bits = numeric::bit_cast<std::uint64_t>(high);
         if (low != 0 && (bits & 1) == 0) bits += (low > 0) == (high > 0) ? 1u : ~std::uint64_t{0};
@@ -14847,7 +14848,7 @@ class light_plane {
     }
 
     bool is_near() const { return is_near_; }
-    /// Whether what is counter-clockwise from the light is clockwise here.
+    /// Whether triangles that are counter-clockwise from the light are clockwise on the plane.
     bool is_mirrored() const { return is_near_ == (numeric::dot(rows_[0], numeric::cross(rows_[1], rows_[2])) > 0); }
 
     /// (u, v, height) of a point; of a near light before the division, (u d, v d, d) with the depth d.
@@ -15476,7 +15477,7 @@ struct alignas(16) plane_vertex {
     float state;  ///< 0, or one of the following
 
     static constexpr float behind = 1;  ///< on the other side of a near light
-    static constexpr float beside = 2;  ///< too near to the light's own plane to be told apart
+    static constexpr float beside = 2;  ///< too near to the plane of the light to have a direction
     static constexpr float not_finite = 3;
 };
 
@@ -15600,7 +15601,7 @@ struct tile_assembly_kernel {
         unroll<2>([&](int axis) INSONIFY_INLINE_LAMBDA {
             floats low, high;
             t.range(low, high, axis);
-            // A tile more than rounding can tell. NaN goes into all tiles.
+            // A margin of a tile covers rounding. NaN goes into all tiles.
             const auto scale = static_cast<float>(1 / tile[axis]);
             const auto last_cell = static_cast<float>(axis == 0 ? tiles.columns - 1 : tiles.rows - 1);
             const floats margin =
@@ -15640,8 +15641,8 @@ class plane_caster {
   public:
     plane_caster() = default;
 
-    /// @param c            its mesh's indices all have positions
-    /// @param min_depth  nearer to a point light than this, directions are not told apart
+    /// @param c          caster whose indices are valid
+    /// @param min_depth  points nearer to a point light have no direction
     template <executor E>
     plane_caster(const caster& c, const light_plane& plane, const plane_tiles& tiles, double min_depth, isa level,
                  E& ex)
@@ -15803,12 +15804,12 @@ class receiver_cells {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/shadow/detail/occlusion_kernel.hpp -----------------------------------------------
-// One caster's triangles over the receivers of a tile: an irregular shadow map, whose samples are the points
-// themselves.
+// Tests the triangles of one caster against the receivers of a tile: an irregular shadow map, whose samples are the
+// receivers themselves.
 //
-// A triangle walks over the cells that it touches and is compared with their receivers, several at a time, in floats.
-// What floats cannot tell within their error is decided in doubles (blocking.hpp), so the answer is that of the doubles
-// for every pair of a triangle and a receiver. A receiver's own triangle is left out by its number; there is no bias.
+// Each triangle is compared with the receivers of the cells that it touches, several at a time, in float. Results
+// within the error of float are decided in double (blocking.hpp), so that every pair of triangle and receiver has the
+// result of the test in double. A receiver's own triangle is skipped by its index; there is no bias.
 //
 // Based on: Timo Aila, Samuli Laine. Alias-Free Shadow Maps. EGSR 2004. Gregory S. Johnson, Juhyun Lee, Christopher A.
 // Burns, William R. Mark. The Irregular Z-Buffer: Hardware Acceleration for Irregular Data Structures. ACM TOG 24,
@@ -15853,10 +15854,11 @@ struct occlusion_kernel {
         using namespace insonify::detail;
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
-        for (int k = 0; k<count; k += N / 2> 0 ? N / 2 : 1) caster.prefetch(ids[k] + 2 * N);
+        constexpr int stride = N > 1 ? N / 2 : 1;
+        for (int k = 0; k < count; k += stride) caster.prefetch(ids[k] + 2 * N);
         const plane_triangles<N> t([&](int k, int i) -> const plane_vertex& { return caster.corner(ids[k], i); });
 
-        // Cells, a little more than rounding can tell, and how large the numbers are that go into a comparison.
+        // Cells, with a margin for rounding, and the magnitude of the operands, which bounds the error.
         ints first[2], last[2], missed{};
         floats extent[2], size{};
         unroll<2>([&](int axis) INSONIFY_INLINE_LAMBDA {
@@ -17078,8 +17080,8 @@ struct point_kernel {
         }
     }
 
-    /// Sine of the angle to the light below which a facet faces away: corners are rounded to 2^-24, and what is
-    /// parallel to the light but for that is dark.
+    /// Facets whose sine of the angle to the light is below this face away: vertices are rounded to 2^-24, and facets
+    /// parallel to the light up to that error are dark.
     static constexpr double grazed = 0x1p-22;
 
     /// Rounding to sub-pixels may show a triangle beside its edge; one seen from its edge gives NaN.
@@ -17103,10 +17105,10 @@ struct point_kernel {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/overhead/detail/light_pass.hpp ---------------------------------------------
-// From a shadow policy to the light on a tile: what casts, which points are tested, and what is named as the caster.
+// Casters for shadow policies, and memory for the results of points.
 //
-// Casters are numbered as they are named: a point in several shadows belongs to the target with the lowest number; else
-// to its own surface, if that faces away from the light; else to the seabed.
+// A point in several shadows has the label of the target with the lowest index, else of its own surface, if that faces
+// away from the light, else of the seabed.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -17139,7 +17141,7 @@ inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh
     return {m.shape, m.to_rig, m.box, may_skip, m.grid};
 }
 
-/// Room for what becomes of points.
+/// Memory for the results of points.
 struct light_arrays {
     uninitialized_vector<float> lit;
     uninitialized_vector<std::uint32_t> caster;
@@ -22151,7 +22153,7 @@ INSONIFY_ARITHMETIC_END
 // Includes every seabed model of the library.
 
 
-// ------------ insonify/shadow/detail/height_map.hpp -----------------------------------------------------
+// ------------ insonify/shadow/height_map.hpp ------------------------------------------------------------
 // Height maps of casters: for every ray of a parallel light, the height of the first surface that it meets.
 //
 // A height map is an image over the light's sheared frame (light.hpp), drawn by the rasterizer with height as depth.
@@ -22233,7 +22235,7 @@ struct map_placement {
     }
 };
 
-/// A grid of rays: where its texels lie in the light's frame, and between which heights it tells things apart.
+/// A grid of rays: the position of its texels in the light's frame, and the range of heights that it resolves.
 struct map_grid {
     glm::dvec2 origin{};  ///< (u, v) of the first texel's corner, metres
     glm::dvec2 texel{1};  ///< metres along u and v
@@ -22347,7 +22349,7 @@ class height_map {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/shadow/detail/lookup.hpp ---------------------------------------------------------
+// ------------ insonify/shadow/map_lookup.hpp ------------------------------------------------------------
 // Looks a point up in a height map: at the nearest texel, or averaged over several (percentage-closer filtering).
 //
 // The point's own surface is in the map too. The plane of its facet is extended to each texel's centre before heights
@@ -23093,8 +23095,8 @@ class sonar_equation {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/detail/equation_interface.hpp ------------------------------------
-// A sonar equation behind one interface, so that what traces pings is compiled once for all lists of parts. It is asked
-// for factors once for each ray of a fan, and once for each bin and altitude, never for an echo.
+// Virtual interface of sonar equations, so that tracing is compiled once for all lists of parts. It returns factors
+// once per ray of a fan, and once per bin and altitude, never per echo.
 
 INSONIFY_ARITHMETIC_BEGIN
 

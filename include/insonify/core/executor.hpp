@@ -77,7 +77,7 @@ class executor_ref {
 inline namespace INSONIFY_FLAGS {
 
 /// Splits [0, count) into runs of `grain` and calls `fn(first, last)` for each. The split depends on the arguments
-/// alone, so whatever is summed per run comes out the same on any executor.
+/// alone, so that sums per run are the same on any executor.
 template <executor E, std::invocable<std::size_t, std::size_t> Fn>
 void bulk_ranges(E& ex, std::size_t count, std::size_t grain, Fn&& fn) {
     detail::require(grain > 0, "grain", grain, "at least 1");

@@ -29,21 +29,21 @@ struct regular_grid {
     glm::dvec2 origin{0}, right{0}, up{0};  ///< metres, in the mesh's frame
     /// Cells are cut from vertex (i, j) to (i + 1, j + 1), or else from (i + 1, j) to (i, j + 1).
     bool is_rising = true;
-    double off = 0x1p-12;  ///< how far vertices may lie beside their places, in steps
+    double off = 0x1p-12;  ///< bound of the distance of vertices from the lattice, in steps
 };
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Compares numbers, Period of them a block, with what goes on in equal steps from block to block.
+/// Compares numbers with a pattern of Period terms, each of which increases by a constant from block to block.
 template <int Period>
 struct pattern_kernel {
     struct term {
-        std::uint32_t start, step;  ///< in the first block, and from block to block
+        std::uint32_t start, step;  ///< value in the first block, and increment
     };
     const std::uint32_t* numbers;
     std::size_t blocks;
     const term (&pattern)[static_cast<unsigned>(Period)];
-    std::atomic<bool>& differs;  ///< set if a number is another
+    std::atomic<bool>& differs;  ///< set if a number differs from the pattern
 
     template <int N>
     INSONIFY_INLINE void run() const {
@@ -121,8 +121,9 @@ struct cell_cut {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The regular grid that a mesh's vertices lie on, if they do and all heights are finite.
-/// @param off  how far vertices may lie beside their places, in steps; the grid tells how far they do
+/// The regular grid of a mesh's vertices; none if they are not on one, or a height is not finite.
+/// @param off  distance from the lattice up to which vertices are accepted, in steps; `regular_grid::off` of the result
+///             bounds the actual distance
 template <executor_argument E = serial_executor>
 std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, double off = 1.0 / 256) {
     if (m.triangles.size() < 2) return std::nullopt;

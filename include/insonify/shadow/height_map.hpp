@@ -89,7 +89,7 @@ struct map_placement {
     }
 };
 
-/// A grid of rays: where its texels lie in the light's frame, and between which heights it tells things apart.
+/// A grid of rays: the position of its texels in the light's frame, and the range of heights that it resolves.
 struct map_grid {
     glm::dvec2 origin{};  ///< (u, v) of the first texel's corner, metres
     glm::dvec2 texel{1};  ///< metres along u and v

@@ -55,7 +55,7 @@ struct double_double {
         return quick_sum(q1, q2) + double_double{r2.high / b.high, 0};
     }
 
-    /// The nearest float. Rounding the upper half to odd first keeps the lower one's say in ties.
+    /// The nearest float. The upper half is first rounded to odd, so that the lower half decides ties.
     float to_float() const {
         auto bits = numeric::bit_cast<std::uint64_t>(high);
         if (low != 0 && (bits & 1) == 0) bits += (low > 0) == (high > 0) ? 1u : ~std::uint64_t{0};

@@ -35,7 +35,7 @@ class light_plane {
     }
 
     bool is_near() const { return is_near_; }
-    /// Whether what is counter-clockwise from the light is clockwise here.
+    /// Whether triangles that are counter-clockwise from the light are clockwise on the plane.
     bool is_mirrored() const { return is_near_ == (numeric::dot(rows_[0], numeric::cross(rows_[1], rows_[2])) > 0); }
 
     /// (u, v, height) of a point; of a near light before the division, (u d, v d, d) with the depth d.

@@ -31,7 +31,7 @@ struct alignas(16) plane_vertex {
     float state;  ///< 0, or one of the following
 
     static constexpr float behind = 1;  ///< on the other side of a near light
-    static constexpr float beside = 2;  ///< too near to the light's own plane to be told apart
+    static constexpr float beside = 2;  ///< too near to the plane of the light to have a direction
     static constexpr float not_finite = 3;
 };
 
@@ -155,7 +155,7 @@ struct tile_assembly_kernel {
         unroll<2>([&](int axis) INSONIFY_INLINE_LAMBDA {
             floats low, high;
             t.range(low, high, axis);
-            // A tile more than rounding can tell. NaN goes into all tiles.
+            // A margin of a tile covers rounding. NaN goes into all tiles.
             const auto scale = static_cast<float>(1 / tile[axis]);
             const auto last_cell = static_cast<float>(axis == 0 ? tiles.columns - 1 : tiles.rows - 1);
             const floats margin =
@@ -195,8 +195,8 @@ class plane_caster {
   public:
     plane_caster() = default;
 
-    /// @param c            its mesh's indices all have positions
-    /// @param min_depth  nearer to a point light than this, directions are not told apart
+    /// @param c          caster whose indices are valid
+    /// @param min_depth  points nearer to a point light have no direction
     template <executor E>
     plane_caster(const caster& c, const light_plane& plane, const plane_tiles& tiles, double min_depth, isa level,
                  E& ex)

@@ -1,9 +1,9 @@
-// One caster's triangles over the receivers of a tile: an irregular shadow map, whose samples are the points
-// themselves.
+// Tests the triangles of one caster against the receivers of a tile: an irregular shadow map, whose samples are the
+// receivers themselves.
 //
-// A triangle walks over the cells that it touches and is compared with their receivers, several at a time, in floats.
-// What floats cannot tell within their error is decided in doubles (blocking.hpp), so the answer is that of the doubles
-// for every pair of a triangle and a receiver. A receiver's own triangle is left out by its number; there is no bias.
+// Each triangle is compared with the receivers of the cells that it touches, several at a time, in float. Results
+// within the error of float are decided in double (blocking.hpp), so that every pair of triangle and receiver has the
+// result of the test in double. A receiver's own triangle is skipped by its index; there is no bias.
 //
 // Based on: Timo Aila, Samuli Laine. Alias-Free Shadow Maps. EGSR 2004. Gregory S. Johnson, Juhyun Lee, Christopher A.
 // Burns, William R. Mark. The Irregular Z-Buffer: Hardware Acceleration for Irregular Data Structures. ACM TOG 24,
@@ -52,10 +52,11 @@ struct occlusion_kernel {
         using namespace insonify::detail;
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
-        for (int k = 0; k<count; k += N / 2> 0 ? N / 2 : 1) caster.prefetch(ids[k] + 2 * N);
+        constexpr int stride = N > 1 ? N / 2 : 1;
+        for (int k = 0; k < count; k += stride) caster.prefetch(ids[k] + 2 * N);
         const plane_triangles<N> t([&](int k, int i) -> const plane_vertex& { return caster.corner(ids[k], i); });
 
-        // Cells, a little more than rounding can tell, and how large the numbers are that go into a comparison.
+        // Cells, with a margin for rounding, and the magnitude of the operands, which bounds the error.
         ints first[2], last[2], missed{};
         floats extent[2], size{};
         unroll<2>([&](int axis) INSONIFY_INLINE_LAMBDA {

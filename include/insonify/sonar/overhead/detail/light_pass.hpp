@@ -1,7 +1,7 @@
-// From a shadow policy to the light on a tile: what casts, which points are tested, and what is named as the caster.
+// Casters for shadow policies, and memory for the results of points.
 //
-// Casters are numbered as they are named: a point in several shadows belongs to the target with the lowest number; else
-// to its own surface, if that faces away from the light; else to the seabed.
+// A point in several shadows has the label of the target with the lowest index, else of its own surface, if that faces
+// away from the light, else of the seabed.
 #pragma once
 
 #include <insonify/sonar/detail/shadow_terms.hpp>
@@ -38,7 +38,7 @@ inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh
     return {m.shape, m.to_rig, m.box, may_skip, m.grid};
 }
 
-/// Room for what becomes of points.
+/// Memory for the results of points.
 struct light_arrays {
     uninitialized_vector<float> lit;
     uninitialized_vector<std::uint32_t> caster;

@@ -228,8 +228,8 @@ struct point_kernel {
         }
     }
 
-    /// Sine of the angle to the light below which a facet faces away: corners are rounded to 2^-24, and what is
-    /// parallel to the light but for that is dark.
+    /// Facets whose sine of the angle to the light is below this face away: vertices are rounded to 2^-24, and facets
+    /// parallel to the light up to that error are dark.
     static constexpr double grazed = 0x1p-22;
 
     /// Rounding to sub-pixels may show a triangle beside its edge; one seen from its edge gives NaN.

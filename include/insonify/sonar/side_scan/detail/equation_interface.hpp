@@ -1,5 +1,5 @@
-// A sonar equation behind one interface, so that what traces pings is compiled once for all lists of parts. It is asked
-// for factors once for each ray of a fan, and once for each bin and altitude, never for an echo.
+// Virtual interface of sonar equations, so that tracing is compiled once for all lists of parts. It returns factors
+// once per ray of a fan, and once per bin and altitude, never per echo.
 #pragma once
 
 #include <insonify/sonar/side_scan/sonar_equation.hpp>
