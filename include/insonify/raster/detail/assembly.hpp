@@ -220,7 +220,7 @@ struct assembly_kernel {
     }
 
   private:
-    void assemble_one(std::size_t triangle) const {
+    INSONIFY_RARE void assemble_one(std::size_t triangle) const {
         Screen::count(out.stats, screen.assemble(shader, triangle, tiles, out));
     }
 

@@ -35,7 +35,7 @@ struct tile_triangles {
         }
     }
 
-    INSONIFY_INLINE triangle_setup setup(std::uint32_t id) const {
+    INSONIFY_RARE triangle_setup setup(std::uint32_t id) const {
         const screen_triangle t = screen[id];
         triangle_setup s = triangle_setup::of(t.a, t.b, t.c, grid(), pixels_of(t), tile_buffer<false>::slack);
         if (t.is_run()) s.cover_all();
