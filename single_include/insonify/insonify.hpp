@@ -12846,7 +12846,7 @@ struct assembly_kernel {
     }
 
   private:
-    void assemble_one(std::size_t triangle) const {
+    INSONIFY_RARE void assemble_one(std::size_t triangle) const {
         Screen::count(out.stats, screen.assemble(shader, triangle, tiles, out));
     }
 
@@ -13101,17 +13101,15 @@ struct small_fill {
     INSONIFY_INLINE void operator()(const RoundedDepth& rounded_depth) const {
         ints width, height;
         extent(width, height);
-        if (!any(ints((width > 3) | (height > 3))))
-            fill_blocks<3>(width, height, rounded_depth);
-        else if (!any(ints((width > 4) | (height > 4))))
-            fill_blocks<4>(width, height, rounded_depth);
+        if (!any(ints((width > side) | (height > side))))
+            fill_blocks(width, height, rounded_depth);
         else
             for (int k = 0; k < count; ++k) fill_rows(k, rounded_depth);
     }
 
   private:
     static constexpr bool exact = small_planes<N, Real>::exact;
-    static constexpr int block = tile_buffer<HasIds>::block;
+    static constexpr int side = 3, block = tile_buffer<HasIds>::block;  ///< pixels of blocks, and their stride
     static constexpr auto lane_count = static_cast<std::size_t>(N);
     using ints = lanes<std::int32_t, N>;
     using floats = lanes<float, N>;
@@ -13148,10 +13146,10 @@ struct small_fill {
         float depth[static_cast<unsigned>(block * block * N)];
     };
 
-    /// Evaluates one pixel of all triangles at a time, each no larger than Size x Size pixels.
-    template <int Size, class RoundedDepth>
+    /// Evaluates one pixel of all triangles at a time, each no larger than side x side pixels.
+    template <class RoundedDepth>
     INSONIFY_INLINE void fill_blocks(const ints& width, const ints& height, const RoundedDepth& rounded_depth) const {
-        static_assert(Size <= block);
+        static_assert(side <= block);
         ints bc, bc_dx, bc_dy, ca, ca_dx, ca_dy, ab, ab_dx, ab_dy, right, down;
         load(bc, t.bc.origin), load(bc_dx, t.bc.dx), load(bc_dy, t.bc.dy);
         load(ca, t.ca.origin), load(ca_dx, t.ca.dx), load(ca_dy, t.ca.dy);
@@ -13163,19 +13161,19 @@ struct small_fill {
         floats lowest, highest;
         load(lowest, planes.lowest), load(highest, planes.highest);
         const ints last_column = width - 1, last_row = height - 1;
-        reals rise[static_cast<unsigned>(Size)];
-        unroll<Size>([&](int column) INSONIFY_INLINE_LAMBDA {
+        reals rise[static_cast<unsigned>(side)];
+        unroll<side>([&](int column) INSONIFY_INLINE_LAMBDA {
             convert(rise[column], ints(right + column * unit));
             rise[column] = rise[column] * dx;
         });
 
         block_pixels found;
-        unroll<Size>([&](int row) INSONIFY_INLINE_LAMBDA {
+        unroll<side>([&](int row) INSONIFY_INLINE_LAMBDA {
             ints bc_x = bc, ca_x = ca, ab_x = ab;
             reals drop;
             convert(drop, ints(down + row * unit));
             drop = z_a + dy * drop;
-            unroll<Size>([&](int column) INSONIFY_INLINE_LAMBDA {
+            unroll<side>([&](int column) INSONIFY_INLINE_LAMBDA {
                 const int pixel = row * block + column;
                 const std::int32_t mask = 1 << pixel;
                 const ints bit = ints{} + mask;
@@ -13575,7 +13573,7 @@ struct tile_triangles {
         }
     }
 
-    INSONIFY_INLINE triangle_setup setup(std::uint32_t id) const {
+    INSONIFY_RARE triangle_setup setup(std::uint32_t id) const {
         const screen_triangle t = screen[id];
         triangle_setup s = triangle_setup::of(t.a, t.b, t.c, grid(), pixels_of(t), tile_buffer<false>::slack);
         if (t.is_run()) s.cover_all();
