@@ -120,13 +120,13 @@ image<rgb8> difference_picture(const image<Pixel>& found, const image<Pixel>& ex
         return sum / detail::channels_of<Pixel>::count;
     };
     double brightest = 0, largest = 0;
-    const auto note = [](double& largest, double value) {
-        if (numeric::is_finite(value) && value > largest) largest = value;
+    const auto raise_to = [](double& maximum, double value) {
+        if (numeric::is_finite(value) && value > maximum) maximum = value;
     };
     for (int y = 0; y < found.height(); ++y)
         for (int x = 0; x < found.width(); ++x) {
-            note(brightest, mean(expected(x, y)));
-            note(largest, detail::pixel_distance(found(x, y), expected(x, y)));
+            raise_to(brightest, mean(expected(x, y)));
+            raise_to(largest, detail::pixel_distance(found(x, y), expected(x, y)));
         }
     const auto level = [](double value, double full) {
         const double share = full > 0 ? value / full : 0;
