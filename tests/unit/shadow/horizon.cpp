@@ -83,7 +83,7 @@ TEST_CASE("Where another caster may shade a seabed, its triangles are known no l
         for (int turn = 0; turn < 4; ++turn) {
             azimuth += 88;
             const shadow::directional_light light = parallel(azimuth, elevation);
-            const swept_seabed bottom(recipes[0], 65, light);
+            const swept_seabed bottom(recipes[0], 129, light);
             const in::affine place{glm::dmat3(1), {0.2, -0.1, 0.4}};
             const lit::mesh box(in::to_mesh(in::cube{.size = glm::vec3(0.3f)}), light, place);
             const shadow::caster casters[] = {lit::caster_of(*box, place), bottom.caster()};
