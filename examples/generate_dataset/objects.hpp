@@ -1,4 +1,4 @@
-// Objects of the sonar recipe: a kind, its length, its damage, and a number that decides the rest of its form.
+// Objects of the recipe `sonar`: meshes from a kind, a length, the damage and a seed for all other dimensions.
 #pragma once
 
 #include <insonify/geometry/objects/aeroplane.hpp>
@@ -19,7 +19,7 @@ namespace generator {
 
 namespace in = insonify;
 
-/// What one object is; damage is 0 for whole, 1 for the worst.
+/// Parameters of one object; damage is 0 for an intact one, 1 for the worst.
 struct object_form {
     std::string kind;
     double length = 10, damage = 0;
@@ -32,8 +32,7 @@ inline float between(in::random_sequence& draw, double low, double high) {
     return static_cast<float>(draw.uniform(low, high));
 }
 
-/// A box of plates, open above, with bulkheads and side decks: barges, pontoons and lighters. Plates go with the
-/// damage.
+/// Barges, pontoons and lighters: an open box of plates with bulkheads and side decks. Damage removes plates.
 inline in::mesh barge_of(const object_form& f, in::random_sequence& draw) {
     const auto length = static_cast<float>(f.length);
     const float beam = length / between(draw, 2.2, 5), depth = beam * between(draw, 0.15, 0.4);
@@ -134,7 +133,7 @@ inline in::mesh plane_of(const object_form& f, in::random_sequence& draw) {
 
 }  // namespace detail
 
-/// Kinds and the lengths that they have, metres; the middle is drawn most often where sizes differ by decades.
+/// A kind and its range of lengths, metres, sampled logarithmically.
 struct object_kind {
     const char* name;
     double shortest, longest;
@@ -151,7 +150,7 @@ inline const object_kind* kind_named(const std::string& name) {
     return nullptr;
 }
 
-/// @throws insonify::io_error for a kind that there is none of
+/// @throws insonify::io_error for an unknown kind
 inline in::mesh mesh_of(const object_form& f) {
     using detail::between;
     in::random_sequence draw(f.seed, 0x6F626A00);
@@ -210,7 +209,7 @@ inline in::mesh mesh_of(const object_form& f) {
     if (f.kind == "cube") return to_mesh(in::cube{.size = {l, l * between(draw, 0.8, 1.25), l}});
     if (f.kind == "cone") return to_mesh(in::cone{.radius = 0.5f * l, .height = l * between(draw, 0.7, 1.2)});
     if (f.kind == "sphere") return to_mesh(in::sphere{.radius = 0.5f * l});
-    throw in::io_error("'" + f.kind + "' is no kind of object");
+    throw in::io_error("'" + f.kind + "' is not a kind of object");
 }
 
 }  // namespace generator

@@ -1,4 +1,4 @@
-// From a plan of the sonar recipe to a picture with labels.
+// Renders one image of the recipe `sonar`, with its labels.
 #pragma once
 
 #include "sonar_screen.hpp"
@@ -9,12 +9,12 @@ struct sonar_picture {
     in::labels labels;
     in::image<float> values;  ///< before quantization to 8 bits
     in::image<std::uint8_t> gray;
-    target_geometry geometry{};     ///< of the first target, before the picture is turned
+    target_geometry geometry{};     ///< of the first target, before the image is turned
     std::vector<in::pose> poses;    ///< of the targets
     std::vector<double> footprint;  ///< of each target on the bottom, pixels
     std::vector<bool> is_cut;       ///< by the chip's edge
     glm::dvec2 rig{0, 0};
-    glm::dvec2 metres_per_pixel{0, 0};  ///< of a row, of a column, as the picture lies
+    glm::dvec2 metres_per_pixel{0, 0};  ///< along a row and along a column of the turned image
 };
 
 namespace detail {
@@ -23,7 +23,7 @@ inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
     namespace sb = in::seabed;
     const auto of = [](double metres) { return static_cast<float>(metres); };
     const auto feature = of(p.feature), fine = of(1.2 * pixel);
-    // Relief of a length scale is a share of that length: what decides slopes, and so how it looks.
+    // Relief is proportional to its length scale, which keeps its slopes.
     const auto rough = [&](double longest, double share) {
         return sb::roughness{
             .rms = of(share * longest), .longest = of(longest), .shortest = (std::min)(fine, of(longest))};
@@ -73,7 +73,7 @@ inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
     return sand;
 }
 
-/// What a wreck has lost: within about its own length, most of it in the hull and close by, as reflective as the wreck.
+/// Places a piece of debris: within a wreck's length, mostly inside the hull or close to it, about as reflective.
 inline void scatter_about(const placed_object& wreck, in::random_sequence& dice, placed_object& t) {
     const double away = 0.35 * dice.uniform() * dice.uniform(), along = dice.uniform(-0.35, 0.35);
     const auto turn = in::numeric::sin_cos(wreck.yaw);
@@ -84,7 +84,7 @@ inline void scatter_about(const placed_object& wreck, in::random_sequence& dice,
     t.pitch = dice.uniform(-0.5, 0.5);
 }
 
-/// Growth, holes and loose plates: targets are no more of one brightness than the bottom is.
+/// Varies the reflectivity over targets, as growth, holes and loose plates do.
 inline void grow(in::frame<in::labels>& heard, const sonar_plan& p, double pixel) {
     const in::bottom_tone growth{.drift = static_cast<float>(p.growth),
                                  .drift_length = static_cast<float>(p.growth_length),

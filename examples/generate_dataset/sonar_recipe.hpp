@@ -1,6 +1,6 @@
-// The recipe `sonar`: what a side-scan sonar or a synthetic aperture shows of wrecks, aeroplanes, clutter and bare
-// bottoms, as chips cut from survey lines. Every value below is sampled by name and written to manifest.csv;
-// docs/recipe.md says what each is for.
+// Samples the recipe `sonar`: side-scan and synthetic-aperture chips of wrecks, aeroplanes, clutter and bare bottoms,
+// cut from survey lines. Each value is sampled by name and written to manifest.csv; docs/recipe.md explains all of
+// them.
 #pragma once
 
 #include <insonify/geometry/objects/footprint.hpp>
@@ -24,20 +24,20 @@ namespace generator {
 
 /// The class of images without a target.
 inline constexpr const char* empty_class = "empty";
-/// The category of what lies about and is no target.
+/// The category of objects that are not targets.
 inline constexpr const char* clutter_class = "clutter";
 
 inline constexpr int most_targets = 3;
 
-/// One object in the scene, and where it lies.
+/// One object and its pose in the scene.
 struct placed_object {
     object_form form;
     double yaw, pitch, roll, burial, reflectivity;  ///< radians; share of the height; relative to the bottom's
-    double across, along;                           ///< of its middle, in chips from the nearest range and from below
-    double scour;                                   ///< depth over height
+    double across, along;                           ///< of its centre, in chips from the first range and the first ping
+    double scour;                                   ///< depth over the object's height
 };
 
-/// All that is sampled of one image.
+/// All sampled values of one image.
 struct sonar_plan {
     std::string class_name;
     in::instrument sonar;
@@ -67,14 +67,15 @@ struct sonar_plan {
     std::uint32_t noise_seed;
     std::string display;
     double white, exponent, dynamic_range, black_share, white_share;
-    double enlarged;  ///< pixels per pixel of the screen that it was cut from
-    int turn;         ///< quarter turns, and 4 more for a mirrored picture
+    double enlarged;  ///< image pixels per screen pixel
+    int turn;         ///< quarter turns, plus 4 for a mirrored image
 };
 
 namespace detail {
 
-/// Objects are at most so many pixels wide where nothing else decides the size of a chip.
-/// @param track  the direction of the sonar's track, radians
+/// Samples one object. The values of an unused object are sampled, too, so that those after it stay the same, and then
+/// dropped from the manifest.
+/// @param track  direction of the sonar's track, radians
 inline placed_object sample_object(sampler& s, const std::string& prefix, const std::string& kind, bool used,
                                    const placement_range& place, double track) {
     const auto name = [&](const char* what) { return prefix + what; };
@@ -86,7 +87,7 @@ inline placed_object sample_object(sampler& s, const std::string& prefix, const 
     if (prefix == "t1_" && s.given("t1_length_m") == nullptr && s.given("length_m") != nullptr)
         o.form.length = s.derived("t1_length_m", s.number_or("length_m", 0));
     o.form.damage = s.uniform(name("damage"), 0, 1);
-    // Lines that inspect a wreck are run along it; of others it lies any way.
+    // Inspection lines run along a wreck; survey lines cross it at any angle.
     const double along = s.chance(name("along_line"), kind == "ship" ? 0.35 : 0.15) ? 0.1 : 1.0;
     o.yaw =
         s.derived(name("yaw_rad"), track + along * s.uniform(name("heading_rad"), -in::numeric::pi, in::numeric::pi));
@@ -98,7 +99,7 @@ inline placed_object sample_object(sampler& s, const std::string& prefix, const 
     o.reflectivity = s.logarithmic(name("reflectivity"), 1, 20);
     o.across = s.uniform(name("across"), place.across.low, place.across.high);
     o.along = s.uniform(name("along"), place.along.low, place.along.high);
-    // A moat follows the outline of a hull; what an aeroplane digs is too small to tell from its own wreckage.
+    // Scour follows the outline of a hull; that of an aeroplane is too small to tell from wreckage.
     o.scour = s.uniform_or_0(name("scour"), kind == "plane" ? 0.95 : 0.7, 0.02, 0.15);
     if (!used)
         for (const char* const what :
@@ -108,8 +109,8 @@ inline placed_object sample_object(sampler& s, const std::string& prefix, const 
     return o;
 }
 
-/// A mesh as wide and high as a plan says; others are as they are.
-/// @param is_first  target of a plan's line, whose size may have plain names
+/// Scales a mesh to the width and height that a plan gives, if it gives any.
+/// @param is_first  whether it is the first target, whose size a plan may give without a prefix
 inline in::mesh sized(sampler& s, const std::string& prefix, in::mesh shape, bool is_first) {
     const glm::dvec3 size = in::bounds(shape).size();
     const auto factor = [&](const char* plain, double as_it_is) {
@@ -121,14 +122,14 @@ inline in::mesh sized(sampler& s, const std::string& prefix, in::mesh shape, boo
     return in::transformed(std::move(shape), {glm::dmat3({1, 0, 0}, {0, y, 0}, {0, 0, z}), {}});
 }
 
-/// The longer side of a mesh on the bottom, metres.
+/// The longer horizontal side of a mesh's box, metres.
 inline double extent_of(const in::mesh& m) {
     const in::bounding_box box = in::bounds(m);
     return (std::max)(box.size().x, box.size().y);
 }
 
-/// Side of a mesh's box along the track over that across it, within half to double.
-/// @param heading  of the mesh, from straight across the track, radians
+/// Extent of a mesh along the track over its extent across it, clamped to [0.5, 2].
+/// @param heading  of the mesh, from across the track, radians
 inline double slenderness(const in::mesh& m, double heading) {
     const glm::dvec3 size = in::bounds(m).size();
     const auto turn = in::numeric::sin_cos(heading);
@@ -166,7 +167,7 @@ inline void sample_bottom(sampler& s, sonar_plan& p, double pixel, const view_of
 
     p.clutter = s.whole("clutter", 1, 9);
     if (!s.chance("has_clutter", p.class_name == empty_class ? 0.1 : 0.3)) p.clutter = 0;
-    // What a wreck has lost lies about it.
+    // Debris lies around a wreck.
     p.debris = s.whole("debris", 3, 36);
     if (!s.chance("has_debris", 0.55) || p.targets.empty()) p.debris = 0;
     p.clutter_size = s.derived("clutter_size_m", pixel * s.uniform("clutter_px", 1.2, 4.5));
@@ -216,30 +217,30 @@ inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
     p.noise_seed = s.word("noise_seed");
 
     p.display = s.choice("display", {{"amplitude", 0.5}, {"decibels", 0.25}, {"power", 0.05}, {"automatic", 0.2}});
-    // Gain is set so that the bottom is a middle gray and what is brighter still shows: white lies 6 to 18 dB above it.
+    // Operators set the gain so that the bottom is mid-gray; white lies 6 to 18 dB above it.
     p.white = s.logarithmic("white", 2, 32);
     p.exponent = s.uniform("exponent", 0.33, 0.62);
     p.dynamic_range = s.uniform("display_range_factor", 0.5, 1.1) * static_cast<double>(p.sonar.dynamic_range);
     p.dynamic_range = s.derived("display_range_db", p.dynamic_range);
     p.black_share = s.uniform("black_share", 0, 0.02);
     p.white_share = s.uniform("white_share", 0, 0.03);
-    // Targets are zoomed in on.
+    // Images of targets are often zoomed.
     p.enlarged = s.uniform_or_0("enlarged", p.targets.empty() ? 0.88 : 0.55, 1.1, 2.2);
-    // Waterfalls run up or down the screen, charts any way.
+    // Waterfall displays run up or down the screen; charts have any orientation.
     const int turned = s.whole("quarter_turns", 0, 7);
     p.turn = s.derived_whole("turn", s.chance("is_chart", 0.3) ? turned : turned / 2 * 2);
 }
 
 }  // namespace detail
 
-/// The random numbers of one of several draws of an image.
+/// The random numbers of one attempt at an image.
 inline in::random_sequence numbers_of(const options& o, std::uint64_t index, std::uint32_t attempt) {
     return in::random_sequence(o.seed, 0x736F6E00u + attempt, index);
 }
 
-/// What an image shows.
-/// @param view    what no plan gives
-/// @param shapes  becomes the targets' meshes, in their own frames
+/// Samples an image.
+/// @param view    values used where the plan gives none
+/// @param shapes  set to the targets' meshes, in their own frames
 inline sonar_plan sample_image(const options& o, sampler& s, const view_of_target& view,
                                std::vector<in::mesh>& shapes) {
     sonar_plan p{};
@@ -255,7 +256,7 @@ inline sonar_plan sample_image(const options& o, sampler& s, const view_of_targe
         const bool used = !empty && i < more;
         const std::string kind = s.name_of(prefix + "kind", empty ? "boulder" : p.class_name);
         if (kind != (empty ? "boulder" : p.class_name)) s.refuse(prefix + "kind", "the image's class");
-        // All images of a target that has an id show the same one.
+        // All images with the same target_id show the same object.
         const bool is_shared = used && i == 0 && !target_id.empty();
         in::random_sequence of_image(0);
         if (is_shared) of_image = s.draw_from(in::random_sequence(o.seed, 0x74617200u, target_key(target_id)));
@@ -273,19 +274,19 @@ inline sonar_plan sample_image(const options& o, sampler& s, const view_of_targe
         p.targets.front().yaw = s.derived("t1_yaw_rad", line_of_sight + in::numeric::to_radians(*aspect));
     }
 
-    // The chip is cut around the first target, or as large as one of any size would be.
+    // The first target sizes the chip; that of an empty image is sampled.
     const double share = s.chance("is_small", 0.06) ? 0.4 : 1.0;
     const double fill = share * s.uniform("fill", 0.7, 1.35), bare = s.logarithmic("bare_chip_m", 6, 160);
-    // Wrecks are cut out by their outline, so that a chip is longer the way that its target lies.
+    // Crops follow the target's outline: the chip is longer along a slender target.
     const double closeness = s.uniform("crop_share", 0, 1),
                  slender = empty ? 1 : detail::slenderness(shapes.front(), p.targets.front().yaw - p.rig_yaw);
     const double crop = in::numeric::exp(0.5 * closeness * in::numeric::log(slender));
     p.chip = s.derived("chip_m", empty ? bare : detail::extent_of(shapes.front()) / (fill * crop));
     const double pixel = p.chip / o.size;
-    // Pings are shown as rows whatever the speed: pixels are longer or shorter along the track than across it.
+    // A ping is one row at any speed of the vehicle: pixels are stretched along the track.
     p.track = s.derived("track_m", crop * crop * p.chip * s.logarithmic("ping_stretch", 0.67, 1.5));
 
-    // Sonars that reach as far as the chip is wide; the finest ones are not used for the largest chips.
+    // Candidates have a range beyond the chip's width; the finest sonars are not used for the largest chips.
     std::vector<weighted> sonars;
     bool any_fits = false;
     for (const in::instrument& i : in::instruments::all) {
@@ -296,18 +297,18 @@ inline sonar_plan sample_image(const options& o, sampler& s, const view_of_targe
     }
     const std::string otherwise = any_fits ? "" : p.chip > 20 ? "side_scan_450" : "side_scan_1800";
     p.sonar = in::instrument_named(s.choice("sonar", sonars, otherwise));
-    // Nobody shows pixels much finer than the beam.
+    // The range is limited so that the beam is at most 5 pixels wide.
     const double sharp = p.sonar.is_synthetic_aperture() ? 1e9 : 5 * pixel / static_cast<double>(p.sonar.beam);
     const double reach = (std::max)((std::min)(static_cast<double>(p.sonar.range), sharp), 1.3 * p.chip);
     const double lead = p.targets.empty() ? 0.5 : p.targets.front().across;
-    // As far away as the sonar's range allows, and so high that the target is met at a grazing angle of survey lines,
-    // or of the closer ones that inspect a wreck; the water column is in view where it is meant to be.
+    // The slant range to the target is anything that the sonar's range allows. The altitude gives it the grazing angle
+    // of survey or inspection lines. Unless the water column is to be in view, the target lies beyond the first return.
     const double sine = in::numeric::sin_cos(in::numeric::to_radians(s.logarithmic("survey_grazing_deg", 10, 44))).sine;
     double slant = lead * p.chip + s.uniform("range_share", 0.03, 1) * (reach - p.chip);
     if (!s.chance("water_in_view", empty ? 0.04 : 0.2))
         slant = (std::max)(slant, lead * p.chip / (1 - sine / (0.75 * sine + 0.25)));
     p.first_range = s.derived("first_range_m", slant - lead * p.chip);
-    // Noise, beam and grain go by the range that a plan gives.
+    // Noise, beam and grain depend on the range, which a plan may have given.
     slant = p.first_range + lead * p.chip;
     p.altitude = s.derived("altitude_m", slant * sine);
     p.place_x = s.uniform("place_x_m", -500, 500);

@@ -14991,12 +14991,12 @@ class horizon_triangles {
             }
     }
 
-    /// Takes the answers back of cells over which others may cast, in some columns: those that a ray meets which passes
-    /// through a rectangle of the plane z = 0.
-    /// @param lower, upper  of the rectangle, in the grid's steps
+    /// Discards the results of cells that another caster may shade, within some columns: those whose rays pass through
+    /// a rectangle of the plane z = 0.
+    /// @param lower, upper  corners of the rectangle, in the grid's steps
     void forget(const glm::dvec2& lower, const glm::dvec2& upper, int first_column, int last_column,
                 known* into) const {
-        // Such rays meet the relief between these columns, and each column between these rows.
+        // These columns and, in each, these rows hold all points of such rays within the relief.
         const auto least = static_cast<double>(horizon_.heights().least),
                    greatest = static_cast<double>(horizon_.heights().greatest);
         const double beside = 0x1p-8 + horizon_.margin();
