@@ -6261,48 +6261,40 @@ struct regular_grid {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Compares numbers with a pattern of Period terms, each of which increases by a constant from block to block.
-template <int Period>
-struct pattern_kernel {
-    struct term {
-        std::uint32_t start, step;  ///< value in the first block, and increment
-    };
-    const std::uint32_t* numbers;
-    std::size_t blocks;
-    const term (&pattern)[static_cast<unsigned>(Period)];
-    std::atomic<bool>& differs;  ///< set if a number differs from the pattern
+/// Compares the triangles of a row of cells with those of one cell, moved by a vertex from cell to cell.
+struct cell_row_kernel {
+    static constexpr int indices = 6;  ///< of a cell
+
+    const glm::uvec3* triangles;
+    std::size_t cells;
+    const std::uint32_t (&first)[static_cast<unsigned>(indices)];  ///< vertices of the first cell's triangles
+    std::atomic<bool>& differs;                                    ///< set if a triangle is another
 
     template <int N>
     INSONIFY_INLINE void run() const {
-        const std::size_t whole = blocks / N * N;
-        if (differ<N>(0, whole) || differ<1>(whole, blocks)) differs = true;
+        const std::size_t whole = cells / N * N;
+        if (differ<N>(0, whole) || differ<1>(whole, cells)) differs = true;
     }
 
   private:
-    /// N blocks are Period vectors.
+    /// N cells are as many vectors as a cell has indices.
     template <int N>
-    INSONIFY_INLINE bool differ(std::size_t first, std::size_t last) const {
-        using numbers_of = lanes<std::uint32_t, N>;
-        constexpr auto period = static_cast<unsigned>(Period);
-        numbers_of block[period], start[period], step[period];
-        unroll<Period>([&](int v) INSONIFY_INLINE_LAMBDA {
+    INSONIFY_INLINE bool differ(std::size_t begin, std::size_t end) const {
+        using vertices = lanes<std::uint32_t, N>;
+        vertices expected[static_cast<unsigned>(indices)];
+        unroll<indices>([&](int v) INSONIFY_INLINE_LAMBDA {
             for (int k = 0; k < N; ++k) {
                 const int at = v * N + k;
-                const term& t = pattern[at % Period];
-                set_lane(block[v], k, static_cast<std::uint32_t>(at / Period));
-                set_lane(start[v], k, t.start);
-                set_lane(step[v], k, t.step);
+                set_lane(expected[v], k, first[at % indices] + static_cast<std::uint32_t>(at / indices));
             }
         });
         lanes<std::int32_t, N> wrong{};
-        for (std::size_t i = first; i < last; i += N) {
-            const auto before = static_cast<std::uint32_t>(i);
-            unroll<Period>([&](int v) INSONIFY_INLINE_LAMBDA {
-                numbers_of number;
-                load(number, numbers + i * Period + static_cast<std::size_t>(v * N));
-                wrong |= lanes<std::int32_t, N>(number != start[v] + (block[v] + before) * step[v]);
+        for (std::size_t i = begin; i < end; i += N)
+            unroll<indices>([&](int v) INSONIFY_INLINE_LAMBDA {
+                vertices found;
+                load(found, &triangles[2 * i].x + v * N);
+                wrong |= lanes<std::int32_t, N>(found != expected[v] + static_cast<std::uint32_t>(i));
             });
-        }
         return any(wrong);
     }
 };
@@ -6370,34 +6362,33 @@ std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, dou
     const double area = grid.right.x * grid.up.y - grid.right.y * grid.up.x;
     if (!(cut->is_mirrored ? area < 0 : area > 0)) return std::nullopt;  // written so that NaN doesn't pass
     const auto square = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
-    const double shorter = numeric::square_root((std::min)(square(grid.right), square(grid.up))),
-                 longer = numeric::square_root((std::max)(square(grid.right), square(grid.up)));
+    // Metres between the lines of the lattice. Of an oblique one this is less than the length of a step.
+    const double step = numeric::abs(area) / numeric::square_root((std::max)(square(grid.right), square(grid.up)));
+    const double farthest_accepted = square({step * off, 0});
 
     std::atomic<bool> differs = false;
     constexpr std::size_t grain = 16;
-    std::vector<double> farthest((rows + grain - 1) / grain, 0);  // of some rows' vertices from their places, squared
+    std::vector<double> farthest((rows + grain - 1) / grain, 0);  // squared, of the vertices of some rows
     bulk_ranges(ex, rows, grain, [&](std::size_t first, std::size_t last) {
         for (std::size_t j = first; j < last && !differs; ++j) {
             const glm::dvec2 start = grid.origin + static_cast<double>(j) * grid.up;
             for (std::size_t i = 0; i < columns; ++i) {
                 const std::size_t vertex = j * columns + i;
-                const double distance = square(place(vertex) - (start + static_cast<double>(i) * grid.right));
-                farthest[j / grain] = (std::max)(farthest[j / grain], distance);
+                const double squared = square(place(vertex) - (start + static_cast<double>(i) * grid.right));
+                farthest[j / grain] = (std::max)(farthest[j / grain], squared);
                 // Written so that NaN doesn't pass.
-                if (!(distance <= shorter * off * (shorter * off) && numeric::is_finite(m.positions[vertex].z)))
-                    differs = true;
+                if (!(squared <= farthest_accepted && numeric::is_finite(m.positions[vertex].z))) differs = true;
             }
             if (j + 1 == rows) continue;
             const auto corner = static_cast<std::uint32_t>(j * columns);
-            detail::pattern_kernel<6>::term cells[6];
-            for (int i = 0; i < 6; ++i) cells[i] = {cell[i / 3][i % 3] + corner, 1};
-            dispatch(detail::pattern_kernel<6>{&m.triangles[j * 2 * (columns - 1)].x, columns - 1, cells, differs},
+            std::uint32_t vertices[detail::cell_row_kernel::indices];
+            for (int i = 0; i < detail::cell_row_kernel::indices; ++i) vertices[i] = cell[i / 3][i % 3] + corner;
+            dispatch(detail::cell_row_kernel{&m.triangles[j * 2 * (columns - 1)], columns - 1, vertices, differs},
                      best_isa());
         }
     });
     if (differs) return std::nullopt;
-    // Across a step lies the other one's line, nearer than its length where the lattice is oblique.
-    grid.off = numeric::square_root(*std::max_element(farthest.begin(), farthest.end())) * longer / numeric::abs(area);
+    grid.off = numeric::square_root(*std::max_element(farthest.begin(), farthest.end())) / step;
     return grid;
 }
 
@@ -12846,6 +12837,7 @@ struct assembly_kernel {
     }
 
   private:
+    /// Out of line: clipping would be compiled into each copy of the kernel.
     INSONIFY_RARE void assemble_one(std::size_t triangle) const {
         Screen::count(out.stats, screen.assemble(shader, triangle, tiles, out));
     }
@@ -13573,6 +13565,7 @@ struct tile_triangles {
         }
     }
 
+    /// Of a large triangle. Out of line: it would be compiled into each copy of the kernel.
     INSONIFY_RARE triangle_setup setup(std::uint32_t id) const {
         const screen_triangle t = screen[id];
         triangle_setup s = triangle_setup::of(t.a, t.b, t.c, grid(), pixels_of(t), tile_buffer<false>::slack);
@@ -14999,16 +14992,15 @@ class horizon_triangles {
         // These columns and, in each, these rows hold all points of such rays within the relief.
         const auto least = static_cast<double>(horizon_.heights().least),
                    greatest = static_cast<double>(horizon_.heights().greatest);
-        const double beside = 0x1p-8 + horizon_.margin();
+        const double beside = 0x1p-8 + horizon_.margin();  // covers rounding
         const auto held = [](double at, int first, int last) {
             return static_cast<int>((std::min)((std::max)(at, static_cast<double>(first)), static_cast<double>(last)));
         };
         const int left = held(lower.x - grid_.drop * greatest - beside - 1, first_column, last_column),
                   right = held(upper.x - grid_.drop * least + beside + 1, first_column, last_column);
         for (int x = left; x < right; ++x) {
-            const double up = grid_.slope;
-            const int bottom = held(lower.y - up * (upper.x - x) - beside - 2, 0, grid_.rows - 1),
-                      top = held(upper.y - up * (lower.x - x - 1) + beside + 2, 0, grid_.rows - 1);
+            const int bottom = held(lower.y - grid_.slope * (upper.x - x) - beside - 2, 0, grid_.rows - 1),
+                      top = held(upper.y - grid_.slope * (lower.x - x - 1) + beside + 2, 0, grid_.rows - 1);
             const float *const here = horizon_.heights().column(x), *const ahead = horizon_.heights().column(x + 1);
             for (int y = bottom; y < top; ++y) {
                 const auto low = static_cast<double>((std::min)({here[y], here[y + 1], ahead[y], ahead[y + 1]})),

@@ -76,6 +76,13 @@ TEST_CASE("Meshes that are no regular grid are not taken for one") {
         CHECK(refused([&](in::mesh& m) { m.triangles[i].z = 0xFFFFFFFFu; }));
         CHECK(refused([&](in::mesh& m) { std::swap(m.triangles[i].x, m.triangles[i].y); }));
     }
+    // The last triangle of a row, whatever its length.
+    for (int columns = 2; columns < 20; ++columns) {
+        CAPTURE(columns);
+        in::mesh m = grid_of(columns, 3);
+        ++m.triangles[static_cast<std::size_t>(2 * (columns - 1) - 1)].x;
+        CHECK_FALSE(in::regular_grid_of(m));
+    }
     // Any vertex off its place.
     for (const std::size_t i : {0u, 20u, 21u, 300u, 609u, 629u})
         for (const float by : {0.01f, -0.01f, std::nanf(""), std::numeric_limits<float>::infinity()}) {
@@ -120,10 +127,9 @@ TEST_CASE("A regular grid tells how far its vertices lie beside their places, in
         m.positions[i].y = 0.5f * column + 0.25f * row;
     }
     CHECK(in::regular_grid_of(m).value().off == 0);
-    m.positions[40].x -= 0x1p-10f;  // by 2^-11 steps of the first kind and -2^-10 of the other
-    const double off = in::regular_grid_of(m).value().off;
-    CHECK(off >= 0x1p-10);
-    CHECK(off < 0x1p-8);
+    // Straight across the longer step: by 0.75 of it and 2.5 of the shorter one, times 2^-11.
+    m.positions[40] += 0x1p-11f * glm::vec3(-0.5f, 1, 0);
+    CHECK(in::regular_grid_of(m).value().off == Approx(2.5 * 0x1p-11));
     // Decimal steps are rounded to float.
     CHECK(in::regular_grid_of(grid_of(9, 9)).value().off < 1e-6);
 }

@@ -220,6 +220,7 @@ struct assembly_kernel {
     }
 
   private:
+    /// Out of line: clipping would be compiled into each copy of the kernel.
     INSONIFY_RARE void assemble_one(std::size_t triangle) const {
         Screen::count(out.stats, screen.assemble(shader, triangle, tiles, out));
     }

@@ -35,6 +35,7 @@ struct tile_triangles {
         }
     }
 
+    /// Of a large triangle. Out of line: it would be compiled into each copy of the kernel.
     INSONIFY_RARE triangle_setup setup(std::uint32_t id) const {
         const screen_triangle t = screen[id];
         triangle_setup s = triangle_setup::of(t.a, t.b, t.c, grid(), pixels_of(t), tile_buffer<false>::slack);

@@ -99,16 +99,15 @@ class horizon_triangles {
         // These columns and, in each, these rows hold all points of such rays within the relief.
         const auto least = static_cast<double>(horizon_.heights().least),
                    greatest = static_cast<double>(horizon_.heights().greatest);
-        const double beside = 0x1p-8 + horizon_.margin();
+        const double beside = 0x1p-8 + horizon_.margin();  // covers rounding
         const auto held = [](double at, int first, int last) {
             return static_cast<int>((std::min)((std::max)(at, static_cast<double>(first)), static_cast<double>(last)));
         };
         const int left = held(lower.x - grid_.drop * greatest - beside - 1, first_column, last_column),
                   right = held(upper.x - grid_.drop * least + beside + 1, first_column, last_column);
         for (int x = left; x < right; ++x) {
-            const double up = grid_.slope;
-            const int bottom = held(lower.y - up * (upper.x - x) - beside - 2, 0, grid_.rows - 1),
-                      top = held(upper.y - up * (lower.x - x - 1) + beside + 2, 0, grid_.rows - 1);
+            const int bottom = held(lower.y - grid_.slope * (upper.x - x) - beside - 2, 0, grid_.rows - 1),
+                      top = held(upper.y - grid_.slope * (lower.x - x - 1) + beside + 2, 0, grid_.rows - 1);
             const float *const here = horizon_.heights().column(x), *const ahead = horizon_.heights().column(x + 1);
             for (int y = bottom; y < top; ++y) {
                 const auto low = static_cast<double>((std::min)({here[y], here[y + 1], ahead[y], ahead[y + 1]})),
