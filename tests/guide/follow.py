@@ -7,6 +7,8 @@ Pages are followed in the order of docs/guide/README.md, in one folder, from top
 - A block of `sh` is run by bash, with the compiler of $CXX. `sh skip` is not run: it installs, or needs a cluster.
 - A block of `text` below one that was run is its output: each of its lines, in this order; `...` stands for anything.
 
+Then the commands of README.md and docs/compile_cost.md are run, with the project's single_include/ and examples/.
+
 `insonify/` in the folder is the project. `insonify/tools/generate` and `insonify/tools/merge` build what they run; the
 programs that the options name run in their place. Without them, or without GoogleTest, blocks are skipped and listed.
 """
@@ -21,6 +23,7 @@ import sys
 import time
 
 FENCE = re.compile(r"^```(\S*) ?(.*?)\n(.*?)^```$", re.M | re.S)
+COMMANDS = ["README.md", "docs/compile_cost.md"]  # pages whose blocks of `sh` are run
 FENCE_NAME = re.compile(r"\S+\.\w+")
 FILE_NAME = re.compile(r"(?://|#) (\S+\.\w+|Makefile)\s*$")
 LIMIT = 150 * 1000  # bytes of a picture
@@ -43,7 +46,7 @@ def differs(expected, output):
 
 class Guide:
     def __init__(self, project, folder, stand_ins):
-        self.guide, self.folder, self.stand_ins = project / "docs/guide", folder, stand_ins
+        self.project, self.guide, self.folder, self.stand_ins = project, project / "docs/guide", folder, stand_ins
         self.faults, self.left_out, self.blocks = [], [], 0
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
@@ -58,6 +61,7 @@ class Guide:
             if name in code and not program:
                 return None
             code = code.replace(name, str(program))
+        code = re.sub(r"^g\+\+ ", f"{os.environ['CXX']} ", code, flags=re.M)
         done = subprocess.run(["bash", "-euo", "pipefail", "-c", code], cwd=self.folder, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=1200)
         if done.returncode != 0:
@@ -103,6 +107,20 @@ class Guide:
             elif path.suffix == ".png" and path.stat().st_size > LIMIT:
                 self.faults.append(f"{page}: {picture} has {path.stat().st_size} bytes, at most {LIMIT}")
 
+    def run_commands(self, page):
+        """Runs the shell blocks of a page that is followed in the checkout."""
+        for name in ("single_include", "examples"):
+            if not (self.folder / name).exists():
+                (self.folder / name).symlink_to(self.project / name, target_is_directory=True)
+        for language, flag, code in FENCE.findall((self.project / page).read_text()):
+            if language != "sh" or flag == "skip":
+                continue
+            try:
+                self.run(code)
+                self.blocks += 1
+            except (RuntimeError, subprocess.TimeoutExpired) as fault:
+                self.faults.append(f"{page}: {fault}")
+
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -120,6 +138,9 @@ def main():
     for page in pages:
         if not given.pages or page in given.pages or page == pages[0]:
             guide.follow(page)
+    for page in COMMANDS:
+        if not given.pages or page in given.pages:
+            guide.run_commands(page)
     for where in guide.left_out:
         print(f"{where}: left out, the generator or GoogleTest is missing")
     print("\n".join(guide.faults + [f"{guide.blocks} blocks, {len(guide.faults)} faults"]))
