@@ -2,8 +2,10 @@
 #
 #   need <name>...   checks dependencies; installs missing ones on Debian and Ubuntu, lists their packages elsewhere
 #   build_options    sets the array `generator` to CMake options for ninja and ccache, and the number of parallel jobs
-#   explain "$@"     prints the comment at the top of the tool and exits, if --help is among the arguments
-#   refuse <option>  exits with an error for an unknown option
+#   explain "$@"     prints the comment at the top of the tool, and $options_file, and exits, if --help is among the words
+#   accept "$@"      exits with an error for an option that --help does not name
+#   refuse <word>    exits with an error for a word that is not an option
+#   fail <message>   exits with an error
 
 set -u -o pipefail
 export LC_ALL=C
@@ -52,16 +54,68 @@ doxygen       command:doxygen                         doxygen               doxy
 clang-format  command:clang-format                    clang-format          clang-tools-extra   clang-format
 '
 
+options_file=''  # text of the options of a program that the tool builds
+usage() {
+    sed -n '2,/^[^#]/s/^# \{0,1\}//p' "tools/$(basename "$0")"
+    [ -z "$options_file" ] || cat "$options_file"
+}
+
 explain() {
     local word
     for word in "$@"; do
-        case $word in -h | --help) sed -n '2,/^[^#]/s/^# \{0,1\}//p' "tools/$(basename "$0")" && exit 0 ;; esac
+        case $word in -h | --help) usage && exit 0 ;; esac
     done
 }
 
-refuse() {
-    echo "tools/$(basename "$0"): '$1' is not an option; --help lists them" >&2
+fail() {
+    echo "tools/$(basename "$0"): $1" >&2
     exit 2
+}
+
+known_options() {
+    usage | grep -oE -- '--[a-z][a-z-]*' | sort -u
+}
+
+# Prints the known option that is at most two edits (Levenshtein) from a word.
+similar() {
+    known_options | awk -v word="$1" '
+        BEGIN { least = 3 }
+        {
+            for (j = 0; j <= length($0); ++j) row[j] = j
+            for (i = 1; i <= length(word); ++i) {
+                diagonal = row[0]
+                row[0] = i
+                for (j = 1; j <= length($0); ++j) {
+                    edits = diagonal + (substr(word, i, 1) != substr($0, j, 1))
+                    diagonal = row[j]
+                    if (row[j] + 1 < edits) edits = row[j] + 1
+                    if (row[j - 1] + 1 < edits) edits = row[j - 1] + 1
+                    row[j] = edits
+                }
+            }
+            if (row[length($0)] < least) { least = row[length($0)]; best = $0 }
+        }
+        END { print best }'
+}
+
+refuse() {
+    local near
+    near=$(similar "$1")
+    if [ "$near" ]; then fail "$1 is not an option; did you mean $near? --help lists all"; fi
+    fail "$1 is not an option; --help lists them"
+}
+
+accept() {
+    local word known
+    known=$(known_options)
+    for word in "$@"; do
+        case $word in
+            --) return ;;
+            *" "*) ;;  # a value
+            --*) grep -qxF -e "${word%%=*}" <<<"$known" || refuse "${word%%=*}" ;;
+            -[a-zA-Z]*) refuse "$word" ;;
+        esac
+    done
 }
 
 # Whether one of the alternatives `a|b` of a probe is present.

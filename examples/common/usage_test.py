@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""Programs explain themselves by --help, and refuse an unknown option by name, writing no file: usage_test.py <program>..."""
+"""Programs explain themselves by --help, and refuse an unknown option by name, writing no file: usage_test.py <program>...
+
+What generate_dataset says is in its usage.txt, for tools/generate to say before it is built.
+"""
 
 import pathlib
 import subprocess
@@ -14,6 +17,10 @@ for program in sys.argv[1:]:
         name = pathlib.Path(program).name
         if asked.returncode != 0 or "Usage: " not in asked.stdout or asked.stderr:
             faults.append(f"{name} --help: {asked}")
+        if name == "generate_dataset":
+            stored = pathlib.Path(__file__).parent.parent / name / "usage.txt"
+            if asked.stdout != stored.read_text():
+                faults.append(f"{name} --help is not {stored}; write it there")
         if wrong.returncode != 2 or "--nonsense" not in wrong.stderr or wrong.stdout:
             faults.append(f"{name} --nonsense: {wrong}")
         if list(pathlib.Path(folder).iterdir()):

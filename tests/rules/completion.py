@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""tools/completion.bash offers each option of the programs, and completes as bash would: completion.py <project folder>"""
+"""tools/completion.bash offers each option of the programs, and completes as bash would: completion.py <project folder>
+
+The options are those of the sources, and those that --help of a tool lists.
+"""
 
 import pathlib
 import re
@@ -36,6 +39,11 @@ for tool, path, more in (("merge", "examples/generate_dataset/merge.cpp", set())
                          ("mutants", "tools/mutants", set())):
     offered = set(completed("--", program=f"tools/{tool}", function="_insonify_tool"))
     faults += differences(tool, options_in(path) | more, offered)
+for tool in ("generate", "merge", "bench", "tradeoff", "mutants", "recognize", "test", "compile_cost", "amalgamate"):
+    listed = subprocess.run([project / "tools" / tool, "--help"], check=True, capture_output=True, text=True).stdout
+    function = "_insonify_generate" if tool == "generate" else "_insonify_tool"
+    faults += differences(f"{tool} --help", set(re.findall(r"--[a-z][a-z-]*", listed)) | {"--help"},
+                          set(completed("--", program=f"tools/{tool}", function=function)))
 for words, expected in {("--recipe", "p"): ["published"], ("--seabeds", "mud,ro"): ["mud,rock"],
                         ("--see",): ["--seed"]}.items():
     if completed(*words) != expected:

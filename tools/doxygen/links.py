@@ -5,6 +5,7 @@ Each relative link must lead to a file, and its #fragment to an id in that file.
 Linked SVG files must be well-formed, or browsers show an error in their place.
 """
 
+import argparse
 import html.parser
 import pathlib
 import re
@@ -44,6 +45,9 @@ def malformed(path):
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("paths", nargs="+", type=pathlib.Path)
+    paths = parser.parse_args().paths
     read = {}
 
     def page(path):
@@ -51,7 +55,7 @@ def main():
             read[path] = (Markdown if path.suffix == ".md" else Page)(path.read_text(errors="replace"))
         return read[path]
 
-    files = [f for folder in map(pathlib.Path, sys.argv[1:]) for f in
+    files = [f for folder in paths for f in
              ([folder] if folder.is_file() else sorted(folder.rglob("*.html")) + sorted(folder.rglob("*.md")))]
     dead, links = [], 0
     for path in files:

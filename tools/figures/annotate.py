@@ -4,9 +4,9 @@
 Adds a margin with the direction of the sound and a scale bar, and stores few levels, so that each file stays small.
 """
 
+import argparse
 import csv
 import pathlib
-import sys
 
 from PIL import Image, ImageDraw
 
@@ -184,7 +184,11 @@ def scale_bar(draw, right, y, pixels_per_metre, metres):
 
 
 def main():
-    source, target = map(pathlib.Path, sys.argv[1:3])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("source", type=pathlib.Path)
+    parser.add_argument("target", type=pathlib.Path)
+    given = parser.parse_args()
+    source, target = given.source, given.target
     for name, kind in PICTURES.items():
         if not (source / name).exists():
             print(f"{name}: not drawn")

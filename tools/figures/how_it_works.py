@@ -4,9 +4,9 @@
 All positions are computed from the numbers at the top of each function, in the units of the axes.
 """
 
+import argparse
 import math
 import pathlib
-import sys
 
 INK, FAINT, LIT, DARK, HOT = "#223", "#9ab", "#e8c890", "#333a44", "#c0392b"
 
@@ -222,6 +222,8 @@ def echo():
     return p.svg()
 
 
-folder = pathlib.Path(sys.argv[1])
+parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+parser.add_argument("folder", type=pathlib.Path)
+folder = parser.parse_args().folder
 for name in (triangle, shadow, ping, echo):
     (folder / f"{name.__name__}.svg").write_text(name())
