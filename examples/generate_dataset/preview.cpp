@@ -16,7 +16,7 @@ std::string embedded(const json& value) {
 }
 
 constexpr const char* page_head = R"page(<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><title>Data set</title><style>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>Data set</title><style>
 body{margin:0;font:14px/1.4 system-ui,sans-serif;background:#181818;color:#ddd;display:flex;height:100vh}
 aside{width:19em;padding:1em;overflow-y:auto;background:#222;box-sizing:border-box;flex:none}
 main{flex:1;overflow-y:scroll;overflow-anchor:none;position:relative}
@@ -30,12 +30,18 @@ background:#000a;font-size:11px;padding:1px 4px;overflow:hidden;white-space:nowr
 .target i{background:#e60}.shadow i{background:#06d}.cell:hover .tint,.all .tint{display:block}
 .bars{display:flex;align-items:flex-end;height:40px;gap:1px}.bars i{flex:1;background:#8ac;min-height:0}
 .ends{display:flex;justify-content:space-between;font-size:11px;color:#999}
+.cell b{position:absolute;right:0;top:0;background:#000a;font:11px system-ui;padding:1px 4px}
+.note{color:#999;font-size:12px;margin:.6em 0}summary{margin-top:.8em;cursor:pointer}
+@media(max-width:640px){body{flex-direction:column}aside{width:auto;max-height:45vh}main{min-height:0}}
 </style></head><body><aside><h1 id="title"></h1><div id="count"></div>
 <label>Class<select id="class"></select></label><label>Bottom<select id="bottom"></select></label>
 <label>Range of <select id="column"></select></label>
-<div class="pair"><input id="low" type="number" step="any" aria-label="from"><input id="high" type="number" step="any" aria-label="to"></div>
-<label class="in-line"><input id="masks" type="checkbox"> masks on all</label>
-<label>Size<input id="size" type="range" min="64" max="512" value="160"></label><div id="histograms"></div></aside>
+<div class="pair"><input id="low" type="number" step="any" aria-label="from" placeholder="from"><input id="high" type="number" step="any" aria-label="to" placeholder="to"></div>
+<label class="in-line"><input id="masks" type="checkbox"> masks of all images</label>
+<label>Size of the images<input id="size" type="range" min="64" max="512" value="160"></label>
+<div class="note">On each image, its extent in range and an arrow that points away from the sonar. Masks: target orange, shadow
+blue; also shown below the pointer, with all parameters.</div>
+<details id="charts" open><summary>Histograms of the images shown</summary><div id="histograms"></div></details></aside>
 <main id="main"><div id="grid"></div></main><script>
 "use strict";
 const data = )page";
@@ -55,6 +61,11 @@ const numeric = names.map((_, i) => i).filter(i => {
   return false;
 });
 const block = id => "masks/" + id.slice(0, 6) + "/" + id + "_";
+const value = (r, name) => names.includes(name) ? r[at.first + names.indexOf(name)] : null;
+const extent = r => {
+  const turn = value(r, "turn") || 0, metres = value(r, "metres_per_pixel") * value(r, "size_px");
+  return metres ? Number(metres.toPrecision(3)) + " m " + "\u2192\u2191\u2190\u2193"[turn < 4 ? turn : (turn + 2) % 4] : "";
+};
 let shown = rows, cells = new Map();
 function choose() {
   const c = $("class").value, b = $("bottom").value, k = at.first + Number($("column").value);
@@ -77,7 +88,9 @@ function cell(r) {
   const overlay = kind => { const t = document.createElement("div"); t.className = "tint " + kind; picture(block(r[0]) + kind + ".png", t); t.append(document.createElement("i")); f.insertBefore(t, text); };
   text.textContent = r[0] + " " + r[at.cls] + (r[at.bottom] ? " on " + r[at.bottom] : "");
   f.title = names.map((n, i) => n + ": " + r[at.first + i]).join("\n");
-  f.append(text);
+  const tag = document.createElement("b");
+  tag.textContent = extent(r);
+  f.append(text, tag);
   const masks = () => { if (!f.masked) { f.masked = true; overlay("target"); overlay("shadow"); } };
   f.addEventListener("mouseenter", masks);
   if ($("masks").checked) masks();
@@ -121,6 +134,7 @@ $("masks").addEventListener("input", () => { $("grid").classList.toggle("all", $
 $("size").addEventListener("input", place);
 $("main").addEventListener("scroll", place, {passive: true});
 addEventListener("resize", place);
+$("charts").open = innerWidth > 640;
 choose();
 </script></body></html>
 )page";

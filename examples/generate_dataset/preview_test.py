@@ -56,7 +56,9 @@ DRIVER = """
   set("high", middle - 1);
   expect("an empty range shows nothing", count() === 0 && cells().length === 0);
   set("low", ""), set("high", "");
-  const first = cells()[0];
+  const metres = rows[0][3 + names.indexOf("metres_per_pixel")] * rows[0][3 + names.indexOf("size_px")];
+  const first = cells()[0], tag = first.querySelector("b").textContent.split(" ");
+  expect("an image has its extent and direction: " + tag, Math.abs(tag[0] / metres - 1) < 0.01 && tag[2] === "\\u2192");
   first.dispatchEvent(new MouseEvent("mouseenter"));
   expect("masks come on hover", first.querySelectorAll(".tint img").length === 2 && await loaded());
   $("main").scrollTop = $("main").scrollHeight;
