@@ -9790,7 +9790,8 @@ namespace shadow {
 /// Stands for no caster, no mesh or no triangle.
 inline constexpr std::uint32_t invalid_id = 0xFFFFFFFFu;
 
-/// Triangles of a caster that a test may skip, because others block the same points.
+/// Triangles of a caster that a test may skip, because others block the same points. Points of the caster itself that
+/// face away from the light (points::face_light) are tested against all of its triangles.
 enum class skip {
     nothing,         ///< both sides of all triangles block
     facing,          ///< front faces towards the light: the mesh is closed, and no point lies inside
@@ -9899,7 +9900,7 @@ double radius_of(const P& p) {
 
 /// An occlusion that is faster for all points of a picture at once. `structure.screen(points, shares)` decides points
 /// that a cheap test can decide and sets the others to `unknown`; `structure.test(batches, shares, executor)` decides
-/// those, all batches together.
+/// those, all batches together, of at most `max_batch` points each.
 template <class S>
 concept collective_occlusion = occlusion<S> &&
     requires(const S& structure, const points& at, const shares& into, std::span<const points> all_at,
@@ -9907,7 +9908,8 @@ concept collective_occlusion = occlusion<S> &&
     structure.screen(at, into);
     structure.test(all_at, all_into, ex);
 };
-inline constexpr float unknown = -1;  ///< in shares::lit, between screening and testing
+inline constexpr std::size_t max_batch = 65536;  ///< points, see collective_occlusion
+inline constexpr float unknown = -1;             ///< in shares::lit, between screening and testing
 
 /// Result of a test that may leave a triangle or a point undecided.
 enum class known : std::uint8_t { lit, dark, nothing };
@@ -15683,19 +15685,33 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
+/// The place of a point in several batches.
+class batch_index {
+  public:
+    batch_index() = default;
+    batch_index(std::size_t batch, std::size_t point) : value_(static_cast<std::uint32_t>(batch * max_batch + point)) {}
+
+    std::size_t batch() const { return value_ / max_batch; }
+    std::size_t point() const { return value_ % max_batch; }
+
+  private:
+    std::uint32_t value_;
+};
+
 /// A point on the plane, from the lower corner of the tiles, on its way into a tile.
 struct receiver {
     float u, v, height;
-    std::uint32_t point;           ///< the caller's number of it
+    batch_index place;
     std::uint32_t mesh, triangle;  ///< that it lies on
-    std::uint32_t casters;         ///< numbers below this are tested
 };
 
 /// A tile's receivers by cell: rows along u, one after another.
 class receiver_cells {
   public:
+    /// @param batches      that the receivers come from
     /// @param lower, size  of the tile
-    void sort(std::span<const receiver> from, const glm::vec2& lower, const glm::vec2& size) {
+    void sort(std::span<const receiver> from, std::span<const points> batches, const glm::vec2& lower,
+              const glm::vec2& size) {
         const std::size_t count = from.size();
         int side = 1;
         while (side < widest && static_cast<std::size_t>(side * side) * per_cell < count) side *= 2;
@@ -15719,9 +15735,15 @@ class receiver_cells {
         for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
         const std::size_t room = count + padding;
         for (auto* array : {&u, &v, &height}) array->resize(room);
-        for (auto* array : {&point, &mesh, &triangle, &limit_}) array->resize(room);
+        place.resize(room);
+        for (auto* array : {&mesh, &triangle, &lit_mesh, &limit_}) array->resize(room);
         is_limited_ = false;
-        is_one_mesh_ = true;
+        first_averted_ = invalid_id, last_averted_ = 0;
+        is_one_lit_mesh_ = true;
+        const auto lit_mesh_of = [&](const receiver& r) {
+            return batches[r.place.batch()].face_light ? r.mesh : invalid_id;
+        };
+        first_lit_ = lit_mesh_of(from.front());
         next_.assign(starts_.begin(), starts_.end() - 1);
         for (std::size_t i = 0; i < count; ++i) {
             const receiver& r = from[i];
@@ -15729,12 +15751,18 @@ class receiver_cells {
             u[at] = r.u;
             v[at] = r.v;
             height[at] = r.height;
-            point[at] = r.point;
+            place[at] = r.place;
             mesh[at] = r.mesh;
             triangle[at] = r.triangle;
-            limit_[at] = r.casters;
-            is_one_mesh_ = is_one_mesh_ && r.mesh == from.front().mesh;
-            is_limited_ = is_limited_ || r.casters != invalid_id;
+            const points& batch = batches[r.place.batch()];
+            limit_[at] = batch.casters;
+            is_limited_ = is_limited_ || batch.casters != invalid_id;
+            lit_mesh[at] = lit_mesh_of(r);
+            is_one_lit_mesh_ = is_one_lit_mesh_ && lit_mesh[at] == first_lit_;
+            if (!batch.face_light) {
+                first_averted_ = (std::min)(first_averted_, r.mesh);
+                last_averted_ = (std::max)(last_averted_, r.mesh);
+            }
         }
         for (std::size_t i = count; i < room; ++i) u[i] = v[i] = height[i] = 0;
         caster.assign(room, open);
@@ -15750,8 +15778,12 @@ class receiver_cells {
     std::size_t size() const { return keys_.size(); }
     /// No coordinate u or v is larger.
     float largest() const { return largest_; }
-    /// Whether any lies on something else than a caster.
-    bool has_others(std::uint32_t number) const { return !is_one_mesh_ || mesh.front() != number; }
+    /// Whether all lie where a caster faces the light.
+    bool are_on_lit_side(std::uint32_t number) const { return is_one_lit_mesh_ && first_lit_ == number; }
+    /// Whether some may lie where a caster faces away from the light.
+    bool may_be_on_averted_side(std::uint32_t number) const {
+        return first_averted_ <= number && number <= last_averted_;
+    }
     /// Receivers that are tested for the first casters alone take no more from now on.
     void close(std::uint32_t casters) {
         if (!is_limited_) return;
@@ -15765,8 +15797,10 @@ class receiver_cells {
     }
 
     std::vector<float> u, v, height;  ///< in the order of cells, with room for one more vector
-    std::vector<std::uint32_t> point, mesh, triangle;
-    std::vector<std::int32_t> caster;  ///< that blocks it, or open, or closed
+    std::vector<batch_index> place;
+    std::vector<std::uint32_t> mesh, triangle;
+    std::vector<std::uint32_t> lit_mesh;  ///< the mesh of a point whose facet faces the light, or invalid_id
+    std::vector<std::int32_t> caster;     ///< that blocks it, or open, or closed
 
   private:
     static constexpr int widest = 128;          // rows
@@ -15782,7 +15816,9 @@ class receiver_cells {
     int columns_ = 1, rows_ = 1;
     glm::vec2 lower_{0}, scale_{1}, cell_{1};
     float lowest_ = 0, highest_ = 0, largest_ = 0;
-    bool is_limited_ = false, is_one_mesh_ = true;
+    bool is_limited_ = false, is_one_lit_mesh_ = true;
+    std::uint32_t first_lit_ = invalid_id;                         ///< lit_mesh of the first
+    std::uint32_t first_averted_ = invalid_id, last_averted_ = 0;  ///< meshes of points that face away
     std::vector<std::uint32_t> starts_, next_, limit_;
     std::vector<std::uint16_t> keys_;
 };
@@ -15885,11 +15921,12 @@ struct occlusion_kernel {
         floats area = ab[0] * ac[1] - ab[1] * ac[0];
         const floats area_off = 0x1p-20f * (size + receivers.largest()) * (extent[0] + extent[1]);
         const ints facing = ints((is_turned ? 0.0f - area : area) > area_off) & ints(t.state == 0.0f);
-        const bool skips_own = may_skip == skip::facing_its_own;
-        if (may_skip == skip::facing || (skips_own && !receivers.has_others(number))) missed |= facing;
+        const bool skips_for_all =
+            may_skip == skip::facing ? !receivers.may_be_on_averted_side(number) : receivers.are_on_lit_side(number);
+        if (may_skip != skip::nothing && skips_for_all) missed |= facing;
         const unsigned open = ~movemask<N>(missed) & ((2u << (count - 1)) - 1);
         if (open == 0) return;
-        const unsigned for_others = skips_own ? movemask<N>(facing) : 0;
+        const unsigned skipped_by_some = may_skip != skip::nothing ? movemask<N>(facing) : 0;
         // Counter-clockwise on the plane.
         const ints turned = ints(area < 0.0f);
         unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
@@ -15927,16 +15964,17 @@ struct occlusion_kernel {
             const float one[12] = {values[0][k], values[1][k], values[2][k],  values[3][k],
                                    values[4][k], values[5][k], values[6][k],  values[7][k],
                                    values[8][k], values[9][k], values[10][k], values[11][k]};
-            const bool is_for_others = (for_others >> k & 1) != 0;
+            const skip skips = (skipped_by_some >> k & 1) != 0 ? may_skip : skip::nothing;
             for (int row = cells[1][k]; row <= cells[3][k]; ++row)
-                compare<N>(one, ids[k], is_for_others, receivers.start(row, cells[0][k]),
+                compare<N>(one, ids[k], skips, receivers.start(row, cells[0][k]),
                            receivers.start(row, cells[2][k] + 1));
         }
     }
 
     /// One triangle with the receivers [first, last).
+    /// @param skips  the receivers that it is skipped for
     template <int N>
-    INSONIFY_INLINE void compare(const float (&t)[12], std::uint32_t id, bool is_for_others, std::uint32_t first,
+    INSONIFY_INLINE void compare(const float (&t)[12], std::uint32_t id, skip skips, std::uint32_t first,
                                  std::uint32_t last) const {
         using namespace insonify::detail;
         using floats = lanes<float, N>;
@@ -15949,7 +15987,7 @@ struct occlusion_kernel {
         const float area = t[3] * t[7] - t[4] * t[6];
         for (std::uint32_t i = first; i < last; i += N) {
             floats u, v, height;
-            ints mesh, triangle, blocked;
+            ints mesh, triangle, lit_mesh, blocked;
             load(u, us + i);
             load(v, vs + i);
             load(height, heights + i);
@@ -15967,9 +16005,14 @@ struct occlusion_kernel {
             if (!any(open)) continue;
             load(mesh, receivers.mesh.data() + i);
             load(triangle, receivers.triangle.data() + i);
-            ints own = ints(mesh == static_cast<std::int32_t>(number));
-            if (!is_for_others) own = own & ints(triangle == static_cast<std::int32_t>(id));
-            const ints asked = open & ~own;
+            const ints is_own = ints(mesh == static_cast<std::int32_t>(number));
+            ints skipped = is_own & ints(triangle == static_cast<std::int32_t>(id));
+            if (skips != skip::nothing) {
+                load(lit_mesh, receivers.lit_mesh.data() + i);
+                skipped |= ints(lit_mesh == static_cast<std::int32_t>(number));
+                if (skips == skip::facing) skipped |= ~is_own;
+            }
+            const ints asked = open & ~skipped;
             const ints certain =
                 asked & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) & ints(above < 0.0f - doubt);
             store(casters + i, ints(certain ? ints{} + static_cast<std::int32_t>(number) : blocked));
@@ -16144,8 +16187,8 @@ class exact_occlusion {
         serial_executor serial;
         std::vector<points> parts;
         std::vector<shares> results;
-        for (std::size_t first = 0; first < at.size(); first += max_points) {
-            const std::size_t count = (std::min)(max_points, at.size() - first);
+        for (std::size_t first = 0; first < at.size(); first += max_batch) {
+            const std::size_t count = (std::min)(max_batch, at.size() - first);
             parts.push_back({at.x.subspan(first, count), at.y.subspan(first, count), at.z.subspan(first, count),
                              at.mesh.subspan(first, count), at.triangle.subspan(first, count), at.casters,
                              at.face_light});
@@ -16154,7 +16197,7 @@ class exact_occlusion {
         test(std::span<const points>(parts), std::span<const shares>(results), serial);
     }
 
-    /// The same for many batches of at most 2^16 points each.
+    /// The same for many batches of at most `max_batch` points each.
     template <executor E>
     void test(std::span<const points> at, std::span<const shares> into, E& ex) const {
         // Each run of batches sorts its points by tile; then each tile collects its points from all runs.
@@ -16188,7 +16231,6 @@ class exact_occlusion {
     }
 
   private:
-    static constexpr std::size_t max_points = 65536;
     static constexpr std::uint32_t no_caster = detail::tiled_plane::no_caster,
                                    several_casters = detail::tiled_plane::several_casters;
 
@@ -16328,10 +16370,9 @@ class exact_occlusion {
                 found[count] = {static_cast<float>(from.x),
                                 static_cast<float>(from.y),
                                 static_cast<float>(seen.z),
-                                static_cast<std::uint32_t>(part << 16 | i),
+                                {part, i},
                                 some.mesh[i],
-                                some.triangle[i],
-                                some.casters};
+                                some.triangle[i]};
                 keys[count] = static_cast<std::uint32_t>(plane_start[which] + tile);
                 ++out.starts[keys[count] + 1];
                 ++count;
@@ -16347,18 +16388,15 @@ class exact_occlusion {
         const glm::dvec2 size = state->tiles.tile();
         const auto columns = static_cast<std::size_t>(state->tiles.columns);
         const glm::dvec2 from(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
-        cells.sort(all, glm::vec2(from * size), glm::vec2(size));
+        cells.sort(all, at, glm::vec2(from * size), glm::vec2(size));
         for (std::size_t i = 0; i < state->casters.size(); ++i) {
             const auto number = static_cast<std::uint32_t>(i);
             cells.close(number);
-            const auto point = [&](std::size_t k) {
-                return std::pair(&at[cells.point[k] >> 16], cells.point[k] & 0xFFFFu);
-            };
             if (grids_[i]) {
                 for (std::size_t k = 0; k < cells.size(); ++k)
                     if (cells.caster[k] == detail::receiver_cells::open) {
-                        const auto [batch, place] = point(k);
-                        if (is_blocked_by_grid(number, *batch, place))
+                        const detail::batch_index place = cells.place[k];
+                        if (is_blocked_by_grid(number, at[place.batch()], place.point()))
                             cells.caster[k] = static_cast<std::int32_t>(number);
                     }
                 continue;
@@ -16367,8 +16405,8 @@ class exact_occlusion {
             if (caster.bin(tile).empty()) continue;
             const shadow::caster& c = casters_[i];
             const auto decide = [&](std::uint32_t triangle, std::size_t k) {
-                const auto [batch, place] = point(k);
-                return is_blocked_by(number, triangle, (*batch)[place]);
+                const detail::batch_index place = cells.place[k];
+                return is_blocked_by(number, triangle, at[place.batch()][place.point()]);
             };
             insonify::detail::dispatch(
                 detail::occlusion_kernel<std::remove_const_t<decltype(decide)>>{
@@ -16377,9 +16415,9 @@ class exact_occlusion {
         }
         for (std::size_t i = 0; i < cells.size(); ++i) {
             if (cells.caster[i] < 0) continue;
-            const shares& to = into[cells.point[i] >> 16];
-            to.lit[cells.point[i] & 0xFFFFu] = 0;
-            to.caster[cells.point[i] & 0xFFFFu] = static_cast<std::uint32_t>(cells.caster[i]);
+            const detail::batch_index place = cells.place[i];
+            into[place.batch()].lit[place.point()] = 0;
+            into[place.batch()].caster[place.point()] = static_cast<std::uint32_t>(cells.caster[i]);
         }
     }
 
@@ -17038,7 +17076,7 @@ struct point_kernel {
         dot(c, ray, q);
         b = b * scale;
         c = c * scale;
-        const bits inside = bits(b >= 0.0) & bits(c >= 0.0) & bits(b + c <= 1.0);
+        const bits inside = bits(b >= border) & bits(c >= border) & bits(b + c <= 1.0 - border);
         if (any(bits(inside == 0))) hold_inside<N>(b, c);
 
         // Which side of the facet is seen, and whether the light meets it.
@@ -17074,17 +17112,23 @@ struct point_kernel {
     /// parallel to the light up to that error are dark.
     static constexpr double grazed = 0x1p-22;
 
-    /// Rounding to sub-pixels may show a triangle beside its edge; one seen from its edge gives NaN.
+    /// Points are kept off the edges of their triangle by this share of it: a neighbour that rises towards the light
+    /// touches a point on their edge, and what touches a point doesn't block it.
+    static constexpr double border = 0x1p-20;
+
+    /// Rounding to sub-pixels may show a triangle beside its edge; one seen from its edge gives NaN or infinity.
     template <int N>
     INSONIFY_RARE static void hold_inside(lanes<double, N>& b, lanes<double, N>& c) {
-        b = b > 0.0 ? b : lanes<double, N>{};
-        c = c > 0.0 ? c : lanes<double, N>{};
-        lanes<double, N> sum = b + c;
-        sum = sum > 1.0 ? sum : lanes<double, N>{} + 1.0;
-        b = b / sum;
-        c = c / sum;
-        b = b < 1.0 ? b : lanes<double, N>{} + 1.0;
-        c = c < 1.0 ? c : lanes<double, N>{} + 1.0;
+        using reals = lanes<double, N>;
+        const auto clamp = [](reals& x) INSONIFY_INLINE_LAMBDA {
+            x = x > border ? x : reals{} + border;
+            x = x < 0x1p60 ? x : reals{} + 0x1p60;
+        };
+        clamp(b);
+        clamp(c);
+        const reals sum = b + c, scale = sum > 1.0 - border ? (1.0 - border) / sum : reals{} + 1.0;
+        b = b * scale;
+        c = c * scale;
     }
 };
 
@@ -17206,7 +17250,7 @@ class shadow_pass {
           targets_(static_cast<std::uint32_t>(targets)),
           tiles_(of.picture.width(), of.picture.height(), std::countr_zero(static_cast<unsigned>(tile))),
           tile_pixels_(static_cast<std::size_t>(tile) * static_cast<std::size_t>(tile)),
-          run_((std::min)(tiles_.run(), max_points / tile_pixels_)),
+          run_((std::min)(tiles_.run(), shadow::max_batch / tile_pixels_)),
           level_(level) {
         for (const surface& s : surfaces) finders_.emplace_back(view, s);
     }
@@ -17239,7 +17283,6 @@ class shadow_pass {
 
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
-    static constexpr std::size_t max_points = 65536;  // of a batch
 
     using shown_by_surface = std::vector<std::vector<shown_pixel>>;
     /// Memory that the tiles of a run share.
@@ -22628,7 +22671,7 @@ class penumbra_occlusion {
         divide(into);
     }
 
-    /// The same for many batches of at most 2^16 points each, all of them at once.
+    /// The same for many batches of at most `max_batch` points each, all of them at once.
     template <executor E>
     void test(std::span<const points> at, std::span<const shares> into, E& ex) const {
         lights_.front().blocked.test(at, into, ex);

@@ -101,8 +101,8 @@ class exact_occlusion {
         serial_executor serial;
         std::vector<points> parts;
         std::vector<shares> results;
-        for (std::size_t first = 0; first < at.size(); first += max_points) {
-            const std::size_t count = (std::min)(max_points, at.size() - first);
+        for (std::size_t first = 0; first < at.size(); first += max_batch) {
+            const std::size_t count = (std::min)(max_batch, at.size() - first);
             parts.push_back({at.x.subspan(first, count), at.y.subspan(first, count), at.z.subspan(first, count),
                              at.mesh.subspan(first, count), at.triangle.subspan(first, count), at.casters,
                              at.face_light});
@@ -111,7 +111,7 @@ class exact_occlusion {
         test(std::span<const points>(parts), std::span<const shares>(results), serial);
     }
 
-    /// The same for many batches of at most 2^16 points each.
+    /// The same for many batches of at most `max_batch` points each.
     template <executor E>
     void test(std::span<const points> at, std::span<const shares> into, E& ex) const {
         // Each run of batches sorts its points by tile; then each tile collects its points from all runs.
@@ -145,7 +145,6 @@ class exact_occlusion {
     }
 
   private:
-    static constexpr std::size_t max_points = 65536;
     static constexpr std::uint32_t no_caster = detail::tiled_plane::no_caster,
                                    several_casters = detail::tiled_plane::several_casters;
 
@@ -285,10 +284,9 @@ class exact_occlusion {
                 found[count] = {static_cast<float>(from.x),
                                 static_cast<float>(from.y),
                                 static_cast<float>(seen.z),
-                                static_cast<std::uint32_t>(part << 16 | i),
+                                {part, i},
                                 some.mesh[i],
-                                some.triangle[i],
-                                some.casters};
+                                some.triangle[i]};
                 keys[count] = static_cast<std::uint32_t>(plane_start[which] + tile);
                 ++out.starts[keys[count] + 1];
                 ++count;
@@ -304,18 +302,15 @@ class exact_occlusion {
         const glm::dvec2 size = state->tiles.tile();
         const auto columns = static_cast<std::size_t>(state->tiles.columns);
         const glm::dvec2 from(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
-        cells.sort(all, glm::vec2(from * size), glm::vec2(size));
+        cells.sort(all, at, glm::vec2(from * size), glm::vec2(size));
         for (std::size_t i = 0; i < state->casters.size(); ++i) {
             const auto number = static_cast<std::uint32_t>(i);
             cells.close(number);
-            const auto point = [&](std::size_t k) {
-                return std::pair(&at[cells.point[k] >> 16], cells.point[k] & 0xFFFFu);
-            };
             if (grids_[i]) {
                 for (std::size_t k = 0; k < cells.size(); ++k)
                     if (cells.caster[k] == detail::receiver_cells::open) {
-                        const auto [batch, place] = point(k);
-                        if (is_blocked_by_grid(number, *batch, place))
+                        const detail::batch_index place = cells.place[k];
+                        if (is_blocked_by_grid(number, at[place.batch()], place.point()))
                             cells.caster[k] = static_cast<std::int32_t>(number);
                     }
                 continue;
@@ -324,8 +319,8 @@ class exact_occlusion {
             if (caster.bin(tile).empty()) continue;
             const shadow::caster& c = casters_[i];
             const auto decide = [&](std::uint32_t triangle, std::size_t k) {
-                const auto [batch, place] = point(k);
-                return is_blocked_by(number, triangle, (*batch)[place]);
+                const detail::batch_index place = cells.place[k];
+                return is_blocked_by(number, triangle, at[place.batch()][place.point()]);
             };
             insonify::detail::dispatch(
                 detail::occlusion_kernel<std::remove_const_t<decltype(decide)>>{
@@ -334,9 +329,9 @@ class exact_occlusion {
         }
         for (std::size_t i = 0; i < cells.size(); ++i) {
             if (cells.caster[i] < 0) continue;
-            const shares& to = into[cells.point[i] >> 16];
-            to.lit[cells.point[i] & 0xFFFFu] = 0;
-            to.caster[cells.point[i] & 0xFFFFu] = static_cast<std::uint32_t>(cells.caster[i]);
+            const detail::batch_index place = cells.place[i];
+            into[place.batch()].lit[place.point()] = 0;
+            into[place.batch()].caster[place.point()] = static_cast<std::uint32_t>(cells.caster[i]);
         }
     }
 

@@ -49,7 +49,7 @@ class penumbra_occlusion {
         divide(into);
     }
 
-    /// The same for many batches of at most 2^16 points each, all of them at once.
+    /// The same for many batches of at most `max_batch` points each, all of them at once.
     template <executor E>
     void test(std::span<const points> at, std::span<const shares> into, E& ex) const {
         lights_.front().blocked.test(at, into, ex);

@@ -34,7 +34,8 @@ namespace shadow {
 /// Stands for no caster, no mesh or no triangle.
 inline constexpr std::uint32_t invalid_id = 0xFFFFFFFFu;
 
-/// Triangles of a caster that a test may skip, because others block the same points.
+/// Triangles of a caster that a test may skip, because others block the same points. Points of the caster itself that
+/// face away from the light (points::face_light) are tested against all of its triangles.
 enum class skip {
     nothing,         ///< both sides of all triangles block
     facing,          ///< front faces towards the light: the mesh is closed, and no point lies inside
@@ -143,7 +144,7 @@ double radius_of(const P& p) {
 
 /// An occlusion that is faster for all points of a picture at once. `structure.screen(points, shares)` decides points
 /// that a cheap test can decide and sets the others to `unknown`; `structure.test(batches, shares, executor)` decides
-/// those, all batches together.
+/// those, all batches together, of at most `max_batch` points each.
 template <class S>
 concept collective_occlusion = occlusion<S> &&
     requires(const S& structure, const points& at, const shares& into, std::span<const points> all_at,
@@ -151,7 +152,8 @@ concept collective_occlusion = occlusion<S> &&
     structure.screen(at, into);
     structure.test(all_at, all_into, ex);
 };
-inline constexpr float unknown = -1;  ///< in shares::lit, between screening and testing
+inline constexpr std::size_t max_batch = 65536;  ///< points, see collective_occlusion
+inline constexpr float unknown = -1;             ///< in shares::lit, between screening and testing
 
 /// Result of a test that may leave a triangle or a point undecided.
 enum class known : std::uint8_t { lit, dark, nothing };

@@ -275,6 +275,29 @@ TEST_CASE("A heightfield on a grid agrees with rays, for its own points and for 
                 }
 }
 
+TEST_CASE("Points that face away are named after the first caster that blocks them, be it the one that they lie on") {
+    in::serial_executor serial;
+    const in::mesh roof = box({40, 40, 0.1}, {0, 0, 4});
+    for (const auto& [mesh, skip] : {std::pair(rough(), shadow::skip::facing_its_own),
+                                     std::pair(to_mesh(in::sphere{.radius = 0.5f}), shadow::skip::facing)})
+        for (const double elevation : {3.0, 10.0, 20.0}) {
+            const shadow::directional_light light = parallel(20, elevation);
+            const lit::mesh own(mesh, light);
+            const lit::point_list list = own.averted(500, 3);
+            shadow::points averted = list;
+            averted.face_light = false;
+            shadow::caster casters[] = {lit::caster_of(*own), lit::caster_of(roof)};
+            CAPTURE(elevation, list.size());
+            const auto tested = [&] {
+                return lit::test(shadow::exact{}.build(casters, light, {list.box()}, serial), averted).caster;
+            };
+            const auto all = tested();
+            CHECK(std::count(all.begin(), all.end(), 0u) > 0);
+            casters[0].may_skip = skip;
+            CHECK(tested() == all);
+        }
+}
+
 TEST_CASE("Points in front of, behind, beside and above a grid agree with rays") {
     const lit::mesh wall(grid_of(31, false, [](double x, double) { return x > 1.25 && x < 1.35 ? 0.2 : 0.0; }),
                          parallel(0, 45));

@@ -119,22 +119,9 @@ class mesh {
     }
 
     /// Points on facets whose front faces the light.
-    point_list facing(std::size_t count, std::uint64_t seed) const {
-        in::random_sequence random(seed);
-        point_list points;
-        for (std::size_t tries = 0; points.size() < count && tries < 50 * count; ++tries) {
-            const auto i = random.below(static_cast<std::uint32_t>(mesh_.triangles.size()));
-            double u = random.uniform(), v = random.uniform();
-            if (u + v > 1) {
-                u = 1 - u;
-                v = 1 - v;
-            }
-            const glm::dvec3 a = corner(i, 0), p = a + u * (corner(i, 1) - a) + v * (corner(i, 2) - a);
-            const double sine = glm::dot(normal(i), toward(p)) / glm::length(normal(i)) / glm::length(toward(p));
-            if (sine > 0x1p-22) points.add(p, 0, i);
-        }
-        return points;
-    }
+    point_list facing(std::size_t count, std::uint64_t seed) const { return sampled(count, seed, 1); }
+    /// Points on facets whose front faces away from it.
+    point_list averted(std::size_t count, std::uint64_t seed) const { return sampled(count, seed, -1); }
 
     /// Number of points whose result differs from the oracle's.
     int wrong(const point_list& points) const { return wrong(points, dark(points)); }
@@ -163,6 +150,23 @@ class mesh {
     }
 
   private:
+    point_list sampled(std::size_t count, std::uint64_t seed, double side) const {
+        in::random_sequence random(seed);
+        point_list points;
+        for (std::size_t tries = 0; points.size() < count && tries < 50 * count; ++tries) {
+            const auto i = random.below(static_cast<std::uint32_t>(mesh_.triangles.size()));
+            double u = random.uniform(), v = random.uniform();
+            if (u + v > 1) {
+                u = 1 - u;
+                v = 1 - v;
+            }
+            const glm::dvec3 a = corner(i, 0), p = a + u * (corner(i, 1) - a) + v * (corner(i, 2) - a);
+            const double sine = glm::dot(normal(i), toward(p)) / glm::length(normal(i)) / glm::length(toward(p));
+            if (side * sine > 0x1p-22) points.add(p, 0, i);
+        }
+        return points;
+    }
+
     in::mesh mesh_;
     shadow::any_light light_;
     in::affine place_;

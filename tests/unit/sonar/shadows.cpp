@@ -237,6 +237,43 @@ TEST_CASE("Light along the faces and edges of a cube and down a slope gives the 
         }
 }
 
+TEST_CASE("A relief on a lattice has the same pictures when one of its cells is cut the other way") {
+    // On a lattice it is swept, with another cut somewhere it is a list of triangles.
+    constexpr unsigned side = 150;
+    in::mesh lattice;
+    for (unsigned j = 0; j < side; ++j)
+        for (unsigned i = 0; i < side; ++i) {
+            const double x = 0.06 * i - 4.5, y = 0.1 * j - 7.5;
+            lattice.positions.emplace_back(
+                x, y, 0.25 * std::sin(2.3 * x + std::sin(1.7 * y)) * std::cos(1.9 * y - x) + 0.04 * std::sin(31 * x));
+        }
+    for (unsigned j = 0; j + 1 < side; ++j)
+        for (unsigned i = 0; i + 1 < side; ++i) {
+            const unsigned a = j * side + i, b = a + 1, c = a + side, d = c + 1;
+            lattice.triangles.emplace_back(a, b, d);
+            lattice.triangles.emplace_back(a, d, c);
+        }
+    in::mesh list = lattice;
+    list.triangles[0] = {0, 1, side};
+    list.triangles[1] = {1, side + 1, side};
+    const auto drawn = [](const in::mesh& relief, const in::overhead& rig) {
+        in::scene s;
+        s.seabed = in::seabed::none{};
+        s.add(relief, {}, "relief");
+        s.add(in::sphere{.radius = 0.3f}, {.position = {0.4, -0.3, 1.0}}, "ball");
+        return in::render(s, rig);
+    };
+    for (const float azimuth : {0.1f, 0.9f, 1.5708f, 2.6f, 4.0f})
+        for (const float grazing : {0.05f, 0.2f, 0.7f}) {
+            CAPTURE(azimuth, grazing);
+            const in::overhead rig{
+                .altitude = 9, .field_of_view = 1, .size = {300, 300}, .grazing = grazing, .light_azimuth = azimuth};
+            const auto swept = drawn(lattice, rig), tested = drawn(list, rig);
+            CHECK(swept.image == tested.image);
+            CHECK(swept.labels.shadow == tested.labels.shadow);
+        }
+}
+
 TEST_CASE("Near lights have correct shadows: above the seabed, on it, inside of a target") {
     constexpr int pixels = 40;
     for (int kind = 0; kind < 3; ++kind) {

@@ -93,11 +93,12 @@ struct occlusion_kernel {
         floats area = ab[0] * ac[1] - ab[1] * ac[0];
         const floats area_off = 0x1p-20f * (size + receivers.largest()) * (extent[0] + extent[1]);
         const ints facing = ints((is_turned ? 0.0f - area : area) > area_off) & ints(t.state == 0.0f);
-        const bool skips_own = may_skip == skip::facing_its_own;
-        if (may_skip == skip::facing || (skips_own && !receivers.has_others(number))) missed |= facing;
+        const bool skips_for_all =
+            may_skip == skip::facing ? !receivers.may_be_on_averted_side(number) : receivers.are_on_lit_side(number);
+        if (may_skip != skip::nothing && skips_for_all) missed |= facing;
         const unsigned open = ~movemask<N>(missed) & ((2u << (count - 1)) - 1);
         if (open == 0) return;
-        const unsigned for_others = skips_own ? movemask<N>(facing) : 0;
+        const unsigned skipped_by_some = may_skip != skip::nothing ? movemask<N>(facing) : 0;
         // Counter-clockwise on the plane.
         const ints turned = ints(area < 0.0f);
         unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
@@ -135,16 +136,17 @@ struct occlusion_kernel {
             const float one[12] = {values[0][k], values[1][k], values[2][k],  values[3][k],
                                    values[4][k], values[5][k], values[6][k],  values[7][k],
                                    values[8][k], values[9][k], values[10][k], values[11][k]};
-            const bool is_for_others = (for_others >> k & 1) != 0;
+            const skip skips = (skipped_by_some >> k & 1) != 0 ? may_skip : skip::nothing;
             for (int row = cells[1][k]; row <= cells[3][k]; ++row)
-                compare<N>(one, ids[k], is_for_others, receivers.start(row, cells[0][k]),
+                compare<N>(one, ids[k], skips, receivers.start(row, cells[0][k]),
                            receivers.start(row, cells[2][k] + 1));
         }
     }
 
     /// One triangle with the receivers [first, last).
+    /// @param skips  the receivers that it is skipped for
     template <int N>
-    INSONIFY_INLINE void compare(const float (&t)[12], std::uint32_t id, bool is_for_others, std::uint32_t first,
+    INSONIFY_INLINE void compare(const float (&t)[12], std::uint32_t id, skip skips, std::uint32_t first,
                                  std::uint32_t last) const {
         using namespace insonify::detail;
         using floats = lanes<float, N>;
@@ -157,7 +159,7 @@ struct occlusion_kernel {
         const float area = t[3] * t[7] - t[4] * t[6];
         for (std::uint32_t i = first; i < last; i += N) {
             floats u, v, height;
-            ints mesh, triangle, blocked;
+            ints mesh, triangle, lit_mesh, blocked;
             load(u, us + i);
             load(v, vs + i);
             load(height, heights + i);
@@ -175,9 +177,14 @@ struct occlusion_kernel {
             if (!any(open)) continue;
             load(mesh, receivers.mesh.data() + i);
             load(triangle, receivers.triangle.data() + i);
-            ints own = ints(mesh == static_cast<std::int32_t>(number));
-            if (!is_for_others) own = own & ints(triangle == static_cast<std::int32_t>(id));
-            const ints asked = open & ~own;
+            const ints is_own = ints(mesh == static_cast<std::int32_t>(number));
+            ints skipped = is_own & ints(triangle == static_cast<std::int32_t>(id));
+            if (skips != skip::nothing) {
+                load(lit_mesh, receivers.lit_mesh.data() + i);
+                skipped |= ints(lit_mesh == static_cast<std::int32_t>(number));
+                if (skips == skip::facing) skipped |= ~is_own;
+            }
+            const ints asked = open & ~skipped;
             const ints certain =
                 asked & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) & ints(above < 0.0f - doubt);
             store(casters + i, ints(certain ? ints{} + static_cast<std::int32_t>(number) : blocked));

@@ -15,19 +15,33 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
+/// The place of a point in several batches.
+class batch_index {
+  public:
+    batch_index() = default;
+    batch_index(std::size_t batch, std::size_t point) : value_(static_cast<std::uint32_t>(batch * max_batch + point)) {}
+
+    std::size_t batch() const { return value_ / max_batch; }
+    std::size_t point() const { return value_ % max_batch; }
+
+  private:
+    std::uint32_t value_;
+};
+
 /// A point on the plane, from the lower corner of the tiles, on its way into a tile.
 struct receiver {
     float u, v, height;
-    std::uint32_t point;           ///< the caller's number of it
+    batch_index place;
     std::uint32_t mesh, triangle;  ///< that it lies on
-    std::uint32_t casters;         ///< numbers below this are tested
 };
 
 /// A tile's receivers by cell: rows along u, one after another.
 class receiver_cells {
   public:
+    /// @param batches      that the receivers come from
     /// @param lower, size  of the tile
-    void sort(std::span<const receiver> from, const glm::vec2& lower, const glm::vec2& size) {
+    void sort(std::span<const receiver> from, std::span<const points> batches, const glm::vec2& lower,
+              const glm::vec2& size) {
         const std::size_t count = from.size();
         int side = 1;
         while (side < widest && static_cast<std::size_t>(side * side) * per_cell < count) side *= 2;
@@ -51,9 +65,15 @@ class receiver_cells {
         for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
         const std::size_t room = count + padding;
         for (auto* array : {&u, &v, &height}) array->resize(room);
-        for (auto* array : {&point, &mesh, &triangle, &limit_}) array->resize(room);
+        place.resize(room);
+        for (auto* array : {&mesh, &triangle, &lit_mesh, &limit_}) array->resize(room);
         is_limited_ = false;
-        is_one_mesh_ = true;
+        first_averted_ = invalid_id, last_averted_ = 0;
+        is_one_lit_mesh_ = true;
+        const auto lit_mesh_of = [&](const receiver& r) {
+            return batches[r.place.batch()].face_light ? r.mesh : invalid_id;
+        };
+        first_lit_ = lit_mesh_of(from.front());
         next_.assign(starts_.begin(), starts_.end() - 1);
         for (std::size_t i = 0; i < count; ++i) {
             const receiver& r = from[i];
@@ -61,12 +81,18 @@ class receiver_cells {
             u[at] = r.u;
             v[at] = r.v;
             height[at] = r.height;
-            point[at] = r.point;
+            place[at] = r.place;
             mesh[at] = r.mesh;
             triangle[at] = r.triangle;
-            limit_[at] = r.casters;
-            is_one_mesh_ = is_one_mesh_ && r.mesh == from.front().mesh;
-            is_limited_ = is_limited_ || r.casters != invalid_id;
+            const points& batch = batches[r.place.batch()];
+            limit_[at] = batch.casters;
+            is_limited_ = is_limited_ || batch.casters != invalid_id;
+            lit_mesh[at] = lit_mesh_of(r);
+            is_one_lit_mesh_ = is_one_lit_mesh_ && lit_mesh[at] == first_lit_;
+            if (!batch.face_light) {
+                first_averted_ = (std::min)(first_averted_, r.mesh);
+                last_averted_ = (std::max)(last_averted_, r.mesh);
+            }
         }
         for (std::size_t i = count; i < room; ++i) u[i] = v[i] = height[i] = 0;
         caster.assign(room, open);
@@ -82,8 +108,12 @@ class receiver_cells {
     std::size_t size() const { return keys_.size(); }
     /// No coordinate u or v is larger.
     float largest() const { return largest_; }
-    /// Whether any lies on something else than a caster.
-    bool has_others(std::uint32_t number) const { return !is_one_mesh_ || mesh.front() != number; }
+    /// Whether all lie where a caster faces the light.
+    bool are_on_lit_side(std::uint32_t number) const { return is_one_lit_mesh_ && first_lit_ == number; }
+    /// Whether some may lie where a caster faces away from the light.
+    bool may_be_on_averted_side(std::uint32_t number) const {
+        return first_averted_ <= number && number <= last_averted_;
+    }
     /// Receivers that are tested for the first casters alone take no more from now on.
     void close(std::uint32_t casters) {
         if (!is_limited_) return;
@@ -97,8 +127,10 @@ class receiver_cells {
     }
 
     std::vector<float> u, v, height;  ///< in the order of cells, with room for one more vector
-    std::vector<std::uint32_t> point, mesh, triangle;
-    std::vector<std::int32_t> caster;  ///< that blocks it, or open, or closed
+    std::vector<batch_index> place;
+    std::vector<std::uint32_t> mesh, triangle;
+    std::vector<std::uint32_t> lit_mesh;  ///< the mesh of a point whose facet faces the light, or invalid_id
+    std::vector<std::int32_t> caster;     ///< that blocks it, or open, or closed
 
   private:
     static constexpr int widest = 128;          // rows
@@ -114,7 +146,9 @@ class receiver_cells {
     int columns_ = 1, rows_ = 1;
     glm::vec2 lower_{0}, scale_{1}, cell_{1};
     float lowest_ = 0, highest_ = 0, largest_ = 0;
-    bool is_limited_ = false, is_one_mesh_ = true;
+    bool is_limited_ = false, is_one_lit_mesh_ = true;
+    std::uint32_t first_lit_ = invalid_id;                         ///< lit_mesh of the first
+    std::uint32_t first_averted_ = invalid_id, last_averted_ = 0;  ///< meshes of points that face away
     std::vector<std::uint32_t> starts_, next_, limit_;
     std::vector<std::uint16_t> keys_;
 };

@@ -196,7 +196,7 @@ struct point_kernel {
         dot(c, ray, q);
         b = b * scale;
         c = c * scale;
-        const bits inside = bits(b >= 0.0) & bits(c >= 0.0) & bits(b + c <= 1.0);
+        const bits inside = bits(b >= border) & bits(c >= border) & bits(b + c <= 1.0 - border);
         if (any(bits(inside == 0))) hold_inside<N>(b, c);
 
         // Which side of the facet is seen, and whether the light meets it.
@@ -232,17 +232,23 @@ struct point_kernel {
     /// parallel to the light up to that error are dark.
     static constexpr double grazed = 0x1p-22;
 
-    /// Rounding to sub-pixels may show a triangle beside its edge; one seen from its edge gives NaN.
+    /// Points are kept off the edges of their triangle by this share of it: a neighbour that rises towards the light
+    /// touches a point on their edge, and what touches a point doesn't block it.
+    static constexpr double border = 0x1p-20;
+
+    /// Rounding to sub-pixels may show a triangle beside its edge; one seen from its edge gives NaN or infinity.
     template <int N>
     INSONIFY_RARE static void hold_inside(lanes<double, N>& b, lanes<double, N>& c) {
-        b = b > 0.0 ? b : lanes<double, N>{};
-        c = c > 0.0 ? c : lanes<double, N>{};
-        lanes<double, N> sum = b + c;
-        sum = sum > 1.0 ? sum : lanes<double, N>{} + 1.0;
-        b = b / sum;
-        c = c / sum;
-        b = b < 1.0 ? b : lanes<double, N>{} + 1.0;
-        c = c < 1.0 ? c : lanes<double, N>{} + 1.0;
+        using reals = lanes<double, N>;
+        const auto clamp = [](reals& x) INSONIFY_INLINE_LAMBDA {
+            x = x > border ? x : reals{} + border;
+            x = x < 0x1p60 ? x : reals{} + 0x1p60;
+        };
+        clamp(b);
+        clamp(c);
+        const reals sum = b + c, scale = sum > 1.0 - border ? (1.0 - border) / sum : reals{} + 1.0;
+        b = b * scale;
+        c = c * scale;
     }
 };
 

@@ -43,7 +43,7 @@ class shadow_pass {
           targets_(static_cast<std::uint32_t>(targets)),
           tiles_(of.picture.width(), of.picture.height(), std::countr_zero(static_cast<unsigned>(tile))),
           tile_pixels_(static_cast<std::size_t>(tile) * static_cast<std::size_t>(tile)),
-          run_((std::min)(tiles_.run(), max_points / tile_pixels_)),
+          run_((std::min)(tiles_.run(), shadow::max_batch / tile_pixels_)),
           level_(level) {
         for (const surface& s : surfaces) finders_.emplace_back(view, s);
     }
@@ -76,7 +76,6 @@ class shadow_pass {
 
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
-    static constexpr std::size_t max_points = 65536;  // of a batch
 
     using shown_by_surface = std::vector<std::vector<shown_pixel>>;
     /// Memory that the tiles of a run share.
