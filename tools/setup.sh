@@ -76,7 +76,7 @@ known_options() {
     usage | grep -oE -- '--[a-z][a-z-]*' | sort -u
 }
 
-# Prints the known option that is at most two edits (Levenshtein) from a word.
+# Prints the known option that is at most two edits (Levenshtein) from a word; of equals, the one that begins alike.
 similar() {
     known_options | awk -v word="$1" '
         BEGIN { least = 3 }
@@ -93,7 +93,9 @@ similar() {
                     row[j] = edits
                 }
             }
-            if (row[length($0)] < least) { least = row[length($0)]; best = $0 }
+            for (alike = 0; alike < length(word) && substr(word, 1, alike + 1) == substr($0, 1, alike + 1);) ++alike
+            edits = row[length($0)] - alike / 100
+            if (row[length($0)] < 3 && edits < least) { least = edits; best = $0 }
         }
         END { print best }'
 }

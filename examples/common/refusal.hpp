@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -27,16 +28,19 @@ inline std::size_t edits_between(const std::string& from, const std::string& to)
     return row[to.size()];
 }
 
-/// The option whose name is closest to a word, empty if none is within two edits.
+/// The option whose name is closest to a word, empty if none is within two edits. Of equals, the one that begins alike.
 inline std::string similar_option(const CLI::App& app, const std::string& word) {
     std::string best;
-    std::size_t least = 3;
+    std::pair least{std::size_t{3}, std::ptrdiff_t{0}};  // edits, and minus the characters in common
     for (const CLI::Option* const option : app.get_options())
-        for (const std::string& name : option->get_lnames())
-            if (const std::size_t edits = edits_between(word, "--" + name); edits < least) {
-                least = edits;
-                best = "--" + name;
+        for (const std::string& name : option->get_lnames()) {
+            const std::string candidate = "--" + name;
+            const auto differs = std::mismatch(word.begin(), word.end(), candidate.begin(), candidate.end()).first;
+            if (const std::pair rank{edits_between(word, candidate), word.begin() - differs}; rank < least) {
+                least = rank;
+                best = candidate;
             }
+        }
     return best;
 }
 
@@ -52,7 +56,10 @@ inline std::string similar_option(const CLI::App& app, const std::string& word) 
                      similar.empty() ? "" : ("; did you mean " + similar + "?").c_str());
         is_unknown = true;
     }
-    if (is_unknown)
+    const std::string what = error.what();
+    const bool lacks_value = what.find(": 1 required ") != std::string::npos;
+    if (lacks_value) std::fprintf(stderr, "%s: its value is missing\n", what.substr(0, what.find(':')).c_str());
+    if (is_unknown || lacks_value)
         std::fputs("Run with --help for more information.\n", stderr);
     else
         app.exit(error);

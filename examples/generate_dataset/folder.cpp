@@ -15,7 +15,7 @@ fs::path opened(const std::string& out) {
     const fs::path root = folder_path(out);
     std::error_code failed;
     fs::create_directories(root, failed);
-    if (failed) throw insonify::io_error(out + ": can't make this folder: " + failed.message());
+    if (failed) throw insonify::io_error(out + ": can't make this folder: " + failed.message() + "; name another one");
     // Leftovers of a run that was killed before it wrote config.json; older versions left `config.json.tmp0`.
     std::string foreign;
     for (const auto& entry : fs::directory_iterator(root)) {

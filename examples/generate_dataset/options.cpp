@@ -254,8 +254,8 @@ options parsed(int argc, const char* const* argv,
         const auto take = [](const char* name, const std::string& text, range& into, double lowest, double highest) {
             if (!text.empty()) into = parse_range(name, text);
             if (into.low < lowest || into.high > highest)
-                throw CLI::ValidationError(name, "must lie within " + insonify::detail::to_text(lowest) + " and " +
-                                                     insonify::detail::to_text(highest));
+                throw CLI::ValidationError(name, "'" + text + "' must lie within " + insonify::detail::to_text(lowest) +
+                                                     " and " + insonify::detail::to_text(highest));
         };
         take("--target-size", target_size, o.target_size, 1e-3, 1e3);
         take("--aspect", aspect, o.aspect, 1e-2, 1e2);

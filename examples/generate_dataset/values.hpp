@@ -5,35 +5,12 @@
 #include <cmath>
 #include <string>
 
+#include "../common/option_values.hpp"
 #include "options.hpp"
-#include <CLI/CLI.hpp>
 
 namespace generator {
 
-/// Decimal digits, in [low, high]; -1, 1e3 and 10^12 are refused rather than wrapped or truncated.
-inline CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
-    return CLI::Validator(
-        [low, high](std::string& text) -> std::string {
-            std::uint64_t value = 0;
-            const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-            if (status == std::errc{} && end == text.data() + text.size() && value >= low && value <= high) return "";
-            return "'" + text + "' is not a whole number from " + std::to_string(low) + " to " + std::to_string(high);
-        },
-        "", "whole number");
-}
-
-/// A number in [low, high]; not NaN.
-inline CLI::Validator number(double low, double high) {
-    return CLI::Validator(
-        [low, high](std::string& text) -> std::string {
-            double value = 0;
-            const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-            if (status == std::errc{} && end == text.data() + text.size() && value >= low && value <= high) return "";
-            return "'" + text + "' is not a number from " + insonify::detail::to_text(low) + " to " +
-                   insonify::detail::to_text(high);
-        },
-        "", "number");
-}
+using examples::number, examples::whole_number;
 
 /// Parses `low:high`, or one number.
 inline range parse_range(const std::string& name, const std::string& text) {
@@ -61,10 +38,11 @@ inline noise_step parse_noise(const std::string& text) {
                                                   "' is not one of none, speckle:VARIANCE, gaussian:VARIANCE, "
                                                   "poisson:PHOTONS, rayleigh, seabed");
     if (colon == std::string::npos) return {kind, usual};
-    const range strength = parse_range("--noise", text.substr(colon + 1));
-    if (strength.low != strength.high || !(strength.low > 0 && strength.low <= 1e9))
+    double strength = 0;
+    const char* const end = text.data() + text.size();
+    if (std::from_chars(text.data() + colon + 1, end, strength).ptr != end || !(strength > 0 && strength <= 1e9))
         throw CLI::ValidationError("--noise", "'" + text + "': the strength must be one number above 0, at most 1e9");
-    return {kind, strength.low};
+    return {kind, strength};
 }
 
 /// The class of `--mesh CLASS=FILE`.
@@ -116,7 +94,8 @@ inline void check_counts(const options& o) {
                                count <= 1'000'000'000;
         if (!is_number || std::find(known.begin(), known.end(), name) == known.end())
             throw CLI::ValidationError(
-                "--per-class", "'" + text + "' is not CLASS=COUNT with a class of the recipe and a count from 1");
+                "--per-class",
+                "'" + text + "' is not CLASS=COUNT with a count from 1 and one of " + CLI::detail::join(known));
         if (std::find(counted.begin(), counted.end(), name) != counted.end())
             throw CLI::ValidationError("--per-class", "'" + name + "' appears twice; name each class once");
         counted.push_back(name);

@@ -4,6 +4,7 @@
 #include <insonify/insonify.hpp>
 #include <insonify/seabed/blend.hpp>
 
+#include "../common/option_values.hpp"
 #include "../common/refusal.hpp"
 #include "vehicle.hpp"
 #include <CLI/CLI.hpp>
@@ -33,8 +34,10 @@ inline options parse(int argc, char** argv) {
     app.add_option("--ping-rate", o.driving.ping_rate, "Per second (15)")->check(CLI::Range(0.1, 1000.0));
     app.add_option("--turn-rate", o.driving.turn_rate, "Degrees per second at most (6)")->check(CLI::Range(0.1, 360.0));
     app.add_option("--altitude", o.driving.altitude, "Metres (6)")->check(CLI::Range(0.1, 1000.0));
-    app.add_option("--altitude-change", o.driving.altitude_change, "Slow rise and fall, metres (1.5)");
-    app.add_option("--heave", o.driving.heave, "Rise and fall with the swell, metres (0.15)");
+    app.add_option("--altitude-change", o.driving.altitude_change, "Slow rise and fall, metres (1.5)")
+        ->check(examples::number(0, 1000));
+    app.add_option("--heave", o.driving.heave, "Rise and fall with the swell, metres (0.15)")
+        ->check(examples::number(0, 100));
     app.add_option("--range", o.range, "Of each side, metres (30)")->check(CLI::Range(1.0, 1e4));
     app.add_option("--bins", o.bins, "Of each side (1024)")->check(CLI::Range(8, 65536));
     app.add_option("--beam", o.beam, "Width along the track, degrees (0.3)")->check(CLI::Range(1e-3, 20.0));
@@ -42,8 +45,10 @@ inline options parse(int argc, char** argv) {
     app.add_option("--bottom", o.bottom, "ripples+mud, ripples+sand, sand+rock or mud+rock (ripples+mud)")
         ->check(CLI::IsMember({"ripples+mud", "ripples+sand", "sand+rock", "mud+rock"}));
     app.add_option("--page", o.page, "Rows of a page (1024)")->check(CLI::Range(16, 16384));
-    app.add_option("--seed", o.seed, "Another seed is another seabed, with other targets (1)");
-    app.add_option("--threads", o.threads, "0: one for each hardware thread; never changes a byte");
+    app.add_option("--seed", o.seed, "Another seed is another seabed, with other targets (1)")
+        ->check(examples::whole_number(0, UINT64_MAX));
+    app.add_option("--threads", o.threads, "0: one for each hardware thread; never changes a byte")
+        ->check(examples::whole_number(0, 1024));
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

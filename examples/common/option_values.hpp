@@ -1,0 +1,39 @@
+// Strict checks of option values. Errors name the option, the value and the expected form.
+#pragma once
+
+#include <insonify/core/error.hpp>
+
+#include <charconv>
+#include <cstdint>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace examples {
+
+/// Decimal digits, in [low, high]; -1, 1e3 and 10^12 are refused rather than wrapped or truncated.
+inline CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
+    return CLI::Validator(
+        [low, high](std::string& text) -> std::string {
+            std::uint64_t value = 0;
+            const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+            if (status == std::errc{} && end == text.data() + text.size() && value >= low && value <= high) return "";
+            return "'" + text + "' is not a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+        },
+        "", "whole number");
+}
+
+/// A number in [low, high]; not NaN.
+inline CLI::Validator number(double low, double high) {
+    return CLI::Validator(
+        [low, high](std::string& text) -> std::string {
+            double value = 0;
+            const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+            if (status == std::errc{} && end == text.data() + text.size() && value >= low && value <= high) return "";
+            return "'" + text + "' is not a number from " + insonify::detail::to_text(low) + " to " +
+                   insonify::detail::to_text(high);
+        },
+        "", "number");
+}
+
+}  // namespace examples
