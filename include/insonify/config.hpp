@@ -1,12 +1,11 @@
-// Every policy macro of the library, in one place. A user may define any of those under "Yours to set" before the
-// first include (the same in every translation unit that shares insonify types).
+// Policy macros. A program may define any of the following before its first include of the library, the same in every
+// translation unit that shares insonify types.
 //
-//   Yours to set
 //     INSONIFY_SIMD           1 (default where the compiler has vector extensions) or 0: everything scalar, same bytes
 //     INSONIFY_ASSERT(x)      internal invariants; default: assert(x)
 //     INSONIFY_THROW(e)       how an error leaves the library when exceptions are off; must not return
-//     INSONIFY_COMPILED       the compiled form: this unit calls the code that one unit of the program compiles,
-//     INSONIFY_IMPLEMENTATION which defines this one; see compiled.hpp
+//     INSONIFY_COMPILED       the compiled form (see compiled.hpp): this unit declares what one unit compiles
+//     INSONIFY_IMPLEMENTATION this is the unit that compiles it
 //
 // Three inline namespaces keep apart what the linker must not merge:
 //   INSONIFY_ABI    the version. Public types are there, so that they pass between units whatever their flags.
@@ -48,7 +47,7 @@
 // ignores the pragma under an explicit -ffp-contract=fast, but not under fast-honor-pragmas.) They also suppress g++'s
 // note on the ABI of wide vectors, which are passed only within always-inlined code.
 #if defined(__clang__) && !defined(__x86_64__) && !defined(__i386__)
-// No float_control there. WebAssembly has no fused instruction.
+// clang has float_control on x86 alone. WebAssembly has no fused instruction.
 #if defined(__wasm__)
 #define INSONIFY_ARITHMETIC_BEGIN
 #define INSONIFY_ARITHMETIC_END
@@ -145,7 +144,7 @@
 #define INSONIFY_JOIN_RAW(a, b) a##b
 #define INSONIFY_JOIN(a, b) INSONIFY_JOIN_RAW(a, b)
 
-// The instruction sets that a unit may use without asking the processor.
+// Instruction sets that the flags of a unit allow without a run-time check.
 #if !INSONIFY_SIMD
 #define INSONIFY_TAG_SIMD built_scalar
 #else
@@ -201,8 +200,8 @@
 #define INSONIFY_ONCE INSONIFY_FLAGS
 #endif
 
-// Members of public types: those of a line are inlined, in builds without optimization as well; longer ones carry the
-// unit's flags in their own name, or that of the compiled form.
+// Members of public types. One-line members are always inlined, even without optimization; longer ones carry the flags
+// of their unit, or the tag of the compiled form, in their mangled names.
 #if defined(__GNUC__)
 #define INSONIFY_MEMBER inline __attribute__((always_inline))
 #define INSONIFY_TAGGED __attribute__((abi_tag(INSONIFY_TEXT(INSONIFY_FLAGS))))

@@ -1,6 +1,8 @@
-// All of insonify but io/png.hpp, which needs stb_image_write, and core/thread_pool.hpp, which needs <thread>.
+// Umbrella header: all of insonify except testing.hpp, io/png.hpp (needs stb_image_write) and core/thread_pool.hpp
+// (needs <thread>).
 //
-// Units of the compiled form get the public library; what extends it is in the headers of the second list.
+// Units of the compiled form include the first list only; code that extends the library includes what it needs of the
+// second.
 #pragma once
 
 #include <insonify/config.hpp>

@@ -1,4 +1,4 @@
-// The version: three numbers, read by CMake too, and nothing else.
+// Version numbers. CMake reads them from this file.
 #pragma once
 
 #define INSONIFY_VERSION_MAJOR 0

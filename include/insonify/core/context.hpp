@@ -38,7 +38,7 @@ class context {
 
     /// Frees the memory that no image uses.
     INSONIFY_TAGGED void release() noexcept { memory_->release(); }
-    /// Bytes that wait for the next frame.
+    /// Bytes of free blocks that are kept for the next frame.
     INSONIFY_TAGGED std::size_t kept_bytes() const noexcept { return memory_->kept_bytes(); }
 
     const detail::shared_pool& memory() const { return memory_; }

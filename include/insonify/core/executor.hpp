@@ -34,7 +34,7 @@ concept executor_argument = executor<std::remove_reference_t<E>>;
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The scratch memory that comes with an executor: a context's, or null.
+/// The scratch memory of an executor that is a context; null for others.
 template <class E>
 shared_pool memory_of(const E& ex) {
     if constexpr (requires { ex.memory(); }) return ex.memory();

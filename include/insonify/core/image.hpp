@@ -19,7 +19,7 @@ struct rgb {
     T r{}, g{}, b{};
     friend bool operator==(const rgb&, const rgb&) = default;
 };
-/// A colour of 8 bits a channel, as files hold it.
+/// A colour of 8 bits per channel.
 using rgb8 = rgb<std::uint8_t>;
 
 /// Owning row-major image without padding; row 0 is at the top, pixel (x, y) covers [x, x+1) x [y, y+1).
@@ -64,7 +64,7 @@ class image {
     image(const image&) = default;
     image(image&&) = default;
     image& operator=(image&&) = default;
-    /// Where memory runs out, the image stays as it was.
+    /// If allocation fails, the image is unchanged.
     image& operator=(const image& other) {
         pixels_ = other.pixels_;
         width_ = other.width_, height_ = other.height_;
@@ -118,7 +118,7 @@ class image {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The image with every pixel replaced by `fn(pixel)`; the size stays, the type is what `fn` returns.
+/// An image of `fn(pixel)` for every pixel; its pixel type is the result type of `fn`.
 template <class T, class Fn>
 auto map_pixels(image_view<const T> source, Fn&& fn) {
     using result = std::decay_t<decltype(fn(std::declval<const T&>()))>;
@@ -129,7 +129,7 @@ auto map_pixels(image_view<const T> source, Fn&& fn) {
     }
     return out;
 }
-/// A new image of fn(pixel), of whatever type that returns.
+/// The same for an image.
 template <class T, class Fn>
 auto map_pixels(const image<T>& source, Fn&& fn) {
     return map_pixels(source.view(), fn);

@@ -34,7 +34,7 @@ INSONIFY_INLINE glm::vec<3, T> product(const glm::mat<3, 3, T>& m, const glm::ve
             m[0].z * v.x + m[1].z * v.y + m[2].z * v.z};
 }
 
-/// The same of three coordinates, which may be lanes.
+/// The same for three coordinates that may be SIMD lanes.
 template <class Floats>
 INSONIFY_INLINE void product(Floats* into, const glm::mat3& m, const Floats* v) {
     into[0] = m[0].x * v[0] + m[1].x * v[1] + m[2].x * v[2];
@@ -42,13 +42,13 @@ INSONIFY_INLINE void product(Floats* into, const glm::mat3& m, const Floats* v) 
     into[2] = m[0].z * v[0] + m[1].z * v[1] + m[2].z * v[2];
 }
 
-/// a b: first b, then a.
+/// Matrix product a b.
 template <class T>
 glm::mat<3, 3, T> product(const glm::mat<3, 3, T>& a, const glm::mat<3, 3, T>& b) {
     return {product(a, b[0]), product(a, b[1]), product(a, b[2])};
 }
 
-/// det(m) times the inverse transpose: the map of area vectors, of the cross product of two edges.
+/// Cofactor matrix: det(m) times the inverse transpose, which transforms area vectors (cross products of edges).
 template <class T>
 glm::mat<3, 3, T> cofactors(const glm::mat<3, 3, T>& m) {
     return {cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};

@@ -15,7 +15,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What a gray file or screen stores for a pixel.
+/// Integer pixel types of gray files and displays.
 template <class T>
 concept pixel_code = std::same_as<T, std::uint8_t> || std::same_as<T, std::uint16_t>;
 
@@ -39,7 +39,7 @@ constexpr Code quantize(float value) {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// N codes in a row; the lanes hold numbers that they can.
+/// Stores N consecutive codes. @pre each lane is in the range of Code
 template <int N, class Code>
 INSONIFY_INLINE void store_codes(Code* to, const lanes<std::int32_t, N>& code) {
 #if INSONIFY_SIMD && defined(__SSE2__)
@@ -68,7 +68,7 @@ INSONIFY_INLINE void store_codes(Code* to, const lanes<std::int32_t, N>& code) {
         for (int k = 0; k < N; ++k) to[k] = static_cast<Code>(lane(code, k));
 }
 
-/// quantize, several pixels at a time.
+/// `quantize` over SIMD lanes.
 template <class Code>
 struct quantize_kernel {
     static constexpr int avx512_lanes = 16;
@@ -90,8 +90,8 @@ struct quantize_kernel {
             value = value < 1.0f ? value : floats{} + 1.0f;
             ints code;
             convert(code, floats(value * largest + 0.5f));
-            // The product rounds up to a tie what isn't quite one. With value (largest + 1) - value in its place, the
-            // difference to the tie is exact.
+            // The product may round up to a tie. value (largest + 1) - value is the same product, and its difference
+            // to the tie is exact.
             floats tie;
             convert(tie, code);
             const floats above = value * (largest + 1.0f) - (tie - 0.5f);
@@ -106,11 +106,18 @@ struct quantize_kernel {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Quantizes as many values as `to` takes; the same codes at every level.
+/// Quantizes to.size() values. The codes are the same at every level.
 /// @pre from.size() >= to.size()
 template <pixel_code Code>
 void quantize_row(std::span<const float> from, std::span<Code> to, isa level = best_isa()) {
     detail::dispatch(detail::quantize_kernel<Code>{from.data(), to.data(), to.size()}, level);
+}
+
+/// Quantizes `count` values.
+template <pixel_code Code>
+void quantize_row(const float* from, Code* to, int count) {
+    const auto size = static_cast<std::size_t>(count);
+    quantize_row(std::span<const float>(from, size), std::span<Code>(to, size));
 }
 
 /// The float nearest to code / largest code; `quantize<Code>` takes it back to the same code.
@@ -119,7 +126,7 @@ constexpr float dequantize(Code code) {
     return static_cast<float>(code) / static_cast<float>((std::numeric_limits<Code>::max)());
 }
 
-/// Dequantizes as many codes as `to` takes.
+/// Dequantizes to.size() codes.
 /// @pre from.size() >= to.size()
 template <pixel_code Code>
 void dequantize_row(std::span<const Code> from, std::span<float> to) {

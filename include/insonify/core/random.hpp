@@ -12,7 +12,6 @@
 #include <insonify/core/simd/random_lanes.hpp>
 
 #include <array>
-#include <bit>
 #include <cstdint>
 
 INSONIFY_ARITHMETIC_BEGIN

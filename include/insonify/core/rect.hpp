@@ -22,7 +22,7 @@ struct rect {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The pixels that both hold; empty if there are none.
+/// The pixels that lie in both; empty if there are none.
 constexpr rect intersect(const rect& a, const rect& b) {
     return {(std::max)(a.x0, b.x0), (std::max)(a.y0, b.y0), (std::min)(a.x1, b.x1), (std::min)(a.y1, b.y1)};
 }

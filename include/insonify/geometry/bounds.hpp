@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <limits>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -34,26 +35,19 @@ struct bounding_box {
     friend bool operator==(const bounding_box&, const bounding_box&) = default;
 };
 
-inline namespace INSONIFY_FLAGS {
-
-/// The smallest box around both.
-inline bounding_box merge(bounding_box a, const bounding_box& b) {
-    for (int i = 0; i < 3; ++i) {
-        a.lower[i] = (std::min)(a.lower[i], b.lower[i]);
-        a.upper[i] = (std::max)(a.upper[i], b.upper[i]);
-    }
-    return a;
-}
-
-/// The smallest box around both; a point with a NaN or infinite coordinate is passed over.
-inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
-    const bool finite = numeric::is_finite(point.x) && numeric::is_finite(point.y) && numeric::is_finite(point.z);
-    return finite ? merge(box, {point, point}) : box;
-}
-
-}  // namespace INSONIFY_FLAGS
-
 namespace detail::inline INSONIFY_FLAGS {
+
+/// A rectangle of the ground along the world's axes, metres; by default empty.
+struct ground_rect {
+    glm::dvec2 lower{std::numeric_limits<double>::infinity()};
+    glm::dvec2 upper{-std::numeric_limits<double>::infinity()};
+
+    /// Extends the rectangle to all positions within a margin of another along either axis.
+    void include(const glm::dvec2& p, double margin = 0) {
+        lower = {(std::min)(lower.x, p.x - margin), (std::min)(lower.y, p.y - margin)};
+        upper = {(std::max)(upper.x, p.x + margin), (std::max)(upper.y, p.y + margin)};
+    }
+};
 
 /// The smallest box around positions, if all of them are finite.
 struct bounds_kernel {
@@ -66,12 +60,12 @@ struct bounds_kernel {
     INSONIFY_INLINE void run() const {
         // N positions are three vectors, lanes of which always hold the same coordinate.
         const std::size_t whole = count / N * N;
-        is_finite = look<N>(0, whole) && look<1>(whole, count);
+        is_finite = scan<N>(0, whole) && scan<1>(whole, count);
     }
 
   private:
     template <int N>
-    INSONIFY_INLINE bool look(std::size_t first, std::size_t last) const {
+    INSONIFY_INLINE bool scan(std::size_t first, std::size_t last) const {
         using floats = lanes<float, N>;
         constexpr float infinity = std::numeric_limits<float>::infinity();
         floats low[3], high[3], zero{};
@@ -85,7 +79,7 @@ struct bounds_kernel {
                 load(some, &positions[i].x + v * N);
                 low[v] = some < low[v] ? some : low[v];
                 high[v] = some > high[v] ? some : high[v];
-                zero = zero + some * 0.0f;
+                zero = zero + some * 0.0f;  // NaN unless all are finite
             });
         for (int v = 0; v < 3; ++v)
             for (int k = 0; k < N; ++k) {
@@ -101,7 +95,22 @@ struct bounds_kernel {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The smallest box around all finite positions, whether a triangle uses them or not.
+/// The smallest box around both.
+inline bounding_box merge(bounding_box a, const bounding_box& b) {
+    for (int i = 0; i < 3; ++i) {
+        a.lower[i] = (std::min)(a.lower[i], b.lower[i]);
+        a.upper[i] = (std::max)(a.upper[i], b.upper[i]);
+    }
+    return a;
+}
+
+/// The smallest box around a box and a point; a point with a NaN or infinite coordinate is skipped.
+inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
+    const bool finite = numeric::is_finite(point.x) && numeric::is_finite(point.y) && numeric::is_finite(point.z);
+    return finite ? merge(box, {point, point}) : box;
+}
+
+/// The smallest box around all finite positions, including those that no triangle uses.
 template <executor_argument E = serial_executor>
 bounding_box bounds(const mesh_view& m, E&& ex = {}) {
     constexpr std::size_t grain = 65536;

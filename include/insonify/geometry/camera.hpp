@@ -32,12 +32,9 @@ inline namespace INSONIFY_FLAGS {
 /// From the world to the camera's frame: x right, y up, z towards the viewer.
 /// @throws invalid_input for a coordinate that is not finite, an eye at the target, or `up` along the line of sight
 inline affine look_at(const camera& c) {
-    const auto require_finite = [](const char* name, const glm::dvec3& v) {
-        for (int i = 0; i < 3; ++i) detail::require_finite(name, v[i]);
-    };
-    require_finite("camera.eye", c.eye);
-    require_finite("camera.target", c.target);
-    require_finite("camera.up", c.up);
+    detail::require_finite("camera.eye", c.eye);
+    detail::require_finite("camera.target", c.target);
+    detail::require_finite("camera.up", c.up);
     const glm::dvec3 back = detail::unit(c.eye - c.target), right = detail::unit(numeric::cross(c.up, back));
     const double turned = numeric::dot(right, right);
     detail::require(turned > 0.5 && numeric::is_finite(turned), "length of up x line of sight", turned, "above 0");
@@ -50,8 +47,8 @@ inline affine look_at(const camera& c) {
 /// Projects points of an object to clip space: `clip = view(point)`.
 class camera_view {
   public:
-    /// @param object_to_world  where the object stands
-    /// @throws invalid_input as look_at, and for a field of view or a z_near that can't be
+    /// @param object_to_world  placement of the object
+    /// @throws invalid_input as look_at, and for a field of view, an aspect or a z_near out of range
     explicit camera_view(const camera& c, const affine& object_to_world = {})
         : to_camera_(compose(look_at(c), object_to_world)), z_near_(c.z_near) {
         detail::require(c.field_of_view > 0 && static_cast<double>(c.field_of_view) < numeric::pi,
@@ -73,8 +70,8 @@ class camera_view {
     float z_near_;
 };
 
-/// A position in OpenGL's clip space, where -w <= z <= w, in the library's: without it all that lies between the near
-/// plane and twice its distance would be clipped.
+/// Converts a position in OpenGL's clip space, where -w <= z <= w, to the library's. Unconverted, everything between
+/// the near plane and twice its distance would be clipped.
 inline glm::vec4 from_gl_clip(const glm::vec4& p) {
     return {p.x, p.y, 0.5f * (p.z + p.w), p.w};
 }

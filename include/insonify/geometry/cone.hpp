@@ -33,7 +33,7 @@ inline mesh to_mesh(const cone& shape) {
     const auto height = static_cast<double>(shape.height);
     const auto top = static_cast<double>(shape.top_radius);
 
-    // The side's normal is its slope turned by a quarter.
+    // The side's normal is its slope turned by 90 degrees.
     const double slant = numeric::square_root(height * height + (radius - top) * (radius - top));
     const double outwards = height / slant;
     const double upwards = (radius - top) / slant;
@@ -45,8 +45,8 @@ inline mesh to_mesh(const cone& shape) {
     return revolve(outline, shape.segments);
 }
 
-/// Fewest segments with which the wider rim is nowhere farther than `deviation` from its circle; the side then isn't
-/// either. See `segments_for(radius, chord_error)`.
+/// Fewest segments with which the wider rim, and with it the side, deviates from its circle by at most `deviation`.
+/// See `segments_for(radius, chord_error)`.
 /// @throws invalid_input as that does
 inline int segments_for(const cone& shape, float deviation) {
     return segments_for((std::max)(shape.radius, shape.top_radius), deviation);

@@ -20,16 +20,15 @@ struct mesh {
     std::vector<glm::uvec3> triangles{};
 };
 
-/// A view of a mesh in memory of the caller's, which has to outlive it.
+/// A view of a mesh in the caller's memory, which must outlive it.
 struct mesh_view {
     std::span<const glm::vec3> positions;
     std::span<const glm::vec3> normals;  ///< see mesh
     std::span<const glm::uvec3> triangles;
 
     mesh_view() = default;
-    INSONIFY_MEMBER mesh_view(std::span<const glm::vec3> places, std::span<const glm::vec3> ups,
-                              std::span<const glm::uvec3> corners)
-        : positions(places), normals(ups), triangles(corners) {}
+    INSONIFY_MEMBER mesh_view(std::span<const glm::vec3> p, std::span<const glm::vec3> n, std::span<const glm::uvec3> t)
+        : positions(p), normals(n), triangles(t) {}
     INSONIFY_MEMBER mesh_view(const mesh& m)
         : mesh_view({m.positions.data(), m.positions.size()}, {m.normals.data(), m.normals.size()},
                     {m.triangles.data(), m.triangles.size()}) {}
@@ -37,7 +36,7 @@ struct mesh_view {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A mesh with uninitialized storage, for meshes that are rebuilt in every picture.
+/// A mesh with uninitialized storage, for meshes that are rebuilt for every picture.
 struct uninitialized_mesh {
     uninitialized_vector<glm::vec3> positions, normals;
     uninitialized_vector<glm::uvec3> triangles;

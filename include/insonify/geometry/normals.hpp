@@ -22,8 +22,8 @@ inline namespace INSONIFY_ABI {
 inline namespace INSONIFY_FLAGS {
 
 /// One unit normal per position: the mean of the triangles around it, weighted by their angle there, so that it does
-/// not depend on how a face was cut into triangles. Triangles without area or with non-finite corners do not count; a
-/// position that nothing counts for gets +z. Edges stay sharp only between triangles that share no position by index.
+/// not depend on how a face was cut into triangles. Triangles without area or with non-finite corners are skipped; a
+/// position without other triangles gets +z. Edges stay sharp only between triangles that share no position by index.
 /// @throws invalid_input if an index has no position
 inline std::vector<glm::vec3> smooth_normals(const mesh& m) {
     validate(m);

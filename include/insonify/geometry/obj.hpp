@@ -1,8 +1,9 @@
-// Wavefront OBJ import: triangles and normals, from text that may be broken or hostile.
+// Wavefront OBJ import: triangles and normals, from text that may be malformed or malicious.
 //
 // Source: Wavefront Technologies. Advanced Visualizer Manual, appendix B1: Object Files (.obj), 1993.
 #pragma once
 
+#include <insonify/core/detail/file.hpp>
 #include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/geometry/mesh.hpp>
@@ -10,15 +11,11 @@
 #include <insonify/geometry/triangulate.hpp>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cstdint>
-#include <cstdio>
 #include <limits>
-#include <memory>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -41,13 +38,12 @@ class obj_reader {
         if (text_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;  // byte order mark
         while (at_ < text_.size()) {
             const std::string_view keyword = word();
-            if (keyword == "v") {
+            if (keyword == "v")
                 positions_.push_back(vector());
-            } else if (keyword == "vn") {
+            else if (keyword == "vn")
                 normals_.push_back(vector());
-            } else if (keyword == "f") {
+            else if (keyword == "f")
                 face();
-            }
             finish_line();
         }
         if (corners_.empty()) refuse_without_face();
@@ -87,33 +83,29 @@ class obj_reader {
         while (at_ < text_.size() && (blank(text_[at_]) || continuation(at_) > 0)) advance();
         const std::size_t first = at_;
         while (at_ < text_.size() && !blank(text_[at_]) && text_[at_] != '#' && line_end(at_) == 0 &&
-               continuation(at_) == 0) {
+               continuation(at_) == 0)
             ++at_;
-        }
         return text_.substr(first, at_ - first);
     }
 
     /// Skips statements that are not supported; a comment isn't continued.
     void finish_line() {
-        while (at_ < text_.size() && line_end(at_) == 0) {
-            if (text_[at_] == '#') {
+        while (at_ < text_.size() && line_end(at_) == 0)
+            if (text_[at_] == '#')
                 at_ = (std::min)(text_.find_first_of("\r\n", at_), text_.size());
-            } else {
+            else
                 advance();
-            }
-        }
         at_ += line_end(at_);
         ++line_;
     }
 
     [[noreturn]] void fail(const std::string& reason) const {
-        raise(io_error(std::string(name_) + ":" + to_text(line_) + ": " + reason));
+        raise_io(std::string(name_) + ":" + to_text(line_), reason);
     }
-    /// Most often the text is a path, or a file of another format.
+    /// The text is usually a path, or a file of another format.
     [[noreturn]] void refuse_without_face() const {
-        const std::string prefix = std::string(name_) + ": ";
-        if (is_file_name(text_)) raise(io_error(prefix + quoted(text_) + " is a file name: load_obj reads files"));
-        raise(io_error(prefix + "the text has no face, expected at least one line such as 'f 1 2 3'"));
+        if (is_file_name(text_)) raise_io(name_, quoted(text_) + " is a file name: load_obj reads files");
+        raise_io(name_, "the text has no face, expected at least one line such as 'f 1 2 3'");
     }
     /// One line that ends in .obj.
     static bool is_file_name(std::string_view text) {
@@ -133,9 +125,8 @@ class obj_reader {
         const number_text found = parse_number(digits, value);
         if (found == number_text::malformed) fail(quoted(digits) + " is not a number");
         constexpr auto limit = static_cast<double>((std::numeric_limits<float>::max)());
-        if (found != number_text::fine || !(value >= -limit && value <= limit)) {
+        if (found != number_text::fine || !(value >= -limit && value <= limit))
             fail(quoted(digits) + " is not a finite number that a float can hold");
-        }
         return static_cast<float>(value);
     }
     glm::vec3 vector() {
@@ -161,9 +152,8 @@ class obj_reader {
         const std::size_t slash = text.find('/');
         const std::size_t second = slash == text.npos ? text.npos : text.find('/', slash + 1);
         corner out{index(text.substr(0, slash), positions_.size(), "position"), none};
-        if (second != text.npos && second + 1 < text.size()) {
+        if (second != text.npos && second + 1 < text.size())
             out.normal = index(text.substr(second + 1), normals_.size(), "normal");
-        }
         return out;
     }
 
@@ -177,9 +167,8 @@ class obj_reader {
         }
         if (polygon_.size() < 3) fail("a face has " + to_text(polygon_.size()) + " corners, expected at least 3");
         triangulate(outline_, cuts_);
-        for (const glm::uvec3& cut : cuts_) {
+        for (const glm::uvec3& cut : cuts_)
             for (int i = 0; i < 3; ++i) corners_.push_back(polygon_[cut[i]]);
-        }
     }
 
     /// Each distinct pair of position and normal becomes a vertex, in the order of the file's positions.
@@ -190,9 +179,8 @@ class obj_reader {
         std::uint32_t end = 0;
         for (std::uint32_t& b : bucket) b = end += b;
         std::vector<std::uint32_t> order(corners_.size());
-        for (std::size_t i = corners_.size(); i-- > 0;) {
+        for (std::size_t i = corners_.size(); i-- > 0;)
             order[--bucket[corners_[i].position]] = static_cast<std::uint32_t>(i);
-        }
 
         mesh out;
         bool complete = true;
@@ -213,16 +201,14 @@ class obj_reader {
             }
         }
         out.triangles.reserve(vertex.size() / 3);
-        for (std::size_t i = 0; i < vertex.size(); i += 3) {
+        for (std::size_t i = 0; i < vertex.size(); i += 3)
             out.triangles.emplace_back(vertex[i], vertex[i + 1], vertex[i + 2]);
-        }
 
         // Compute missing normals.
         if (!complete) {
             const std::vector<glm::vec3> smooth = smooth_normals(out);
-            for (std::size_t i = 0; i < smooth.size(); ++i) {
+            for (std::size_t i = 0; i < smooth.size(); ++i)
                 if (out.normals[i] == glm::vec3(0)) out.normals[i] = smooth[i];
-            }
         }
         return out;
     }
@@ -244,10 +230,10 @@ inline namespace INSONIFY_FLAGS {
 
 /// The polygons of a Wavefront OBJ text as one mesh, in time linear in its length.
 ///
-/// Read are `v` (numbers after the third, weights or colours, are ignored), `vn` and `f`; every other line is passed
-/// over. Polygons become triangles by `triangulate`. A position is kept once for each normal it is used with, and not
-/// at all if no face uses it. Corners without a normal get `smooth_normals`. The frame is the file's own, commonly y
-/// up: turn such a model upright by `pose{.roll = 90_deg}`.
+/// Reads `v` (numbers after the third, weights or colours, are ignored), `vn` and `f`; all other lines are skipped.
+/// Polygons become triangles by `triangulate`. A position is kept once for each normal it is used with, and not at all
+/// if no face uses it. Corners without a normal get `smooth_normals`. The frame is the file's own, commonly y up: turn
+/// such a model upright by `pose{.roll = 90_deg}`.
 ///
 /// @param name  what error messages call the text
 /// @throws io_error with the name and line number for: a coordinate that is missing, no number, or out of range; an
@@ -260,22 +246,7 @@ inline mesh read_obj(std::string_view text, std::string_view name = "OBJ text") 
 /// `read_obj` of a file.
 /// @throws io_error if the file can't be read, with the system's reason, and as `read_obj` does
 inline mesh load_obj(const std::string& path) {
-    const auto fail = [&] { detail::raise(io_error(path + ": " + std::generic_category().message(errno))); };
-    const auto close = [](std::FILE* f) { std::fclose(f); };
-    const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
-    if (!file) fail();
-
-    // Grow by doubling and read until the end: pipes report no size.
-    std::string text;
-    for (std::size_t filled = 0;;) {
-        text.resize((std::max)(std::size_t{1} << 16, 2 * text.size()));
-        filled += std::fread(text.data() + filled, 1, text.size() - filled, file.get());
-        if (std::ferror(file.get())) fail();
-        if (filled < text.size()) {
-            text.resize(filled);
-            return read_obj(text, path);
-        }
-    }
+    return read_obj(detail::file_bytes(path), path);
 }
 
 }  // namespace INSONIFY_FLAGS

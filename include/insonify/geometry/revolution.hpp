@@ -1,4 +1,4 @@
-// Surfaces of revolution: the one builder behind cylinders, cones, spheres, and anything else turned on a lathe.
+// Surfaces of revolution: builds cylinders, cones, spheres, and anything else that a lathe can turn.
 #pragma once
 
 #include <insonify/core/numeric.hpp>
@@ -16,7 +16,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// The axis of a body of revolution.
+/// Axis of a body of revolution.
 enum class axis { x, y, z };
 
 /// A point of the outline that is turned about the axis, and the unit normal there, both in the half plane
@@ -44,7 +44,7 @@ inline int segments_for(float radius, float chord_error) {
     const double half_angle = numeric::atan2(numeric::square_root(ratio * (2 - ratio)), 1 - ratio);
     const double segments = numeric::pi / half_angle;
     detail::require(segments <= 0x1p20, "chord_error", chord_error, "reachable with 2^20 segments");
-    // A ratio that is whole but for rounding is taken as whole.
+    // A whole ratio that rounding has raised must not add a segment.
     return static_cast<int>(numeric::floor_to_int(segments * (1 - 1e-12))) + 1;
 }
 
@@ -62,13 +62,13 @@ inline void append_arc(std::vector<outline_point>& outline, double radius, doubl
     }
 }
 
-/// Grid of `segments` by half as many rings: a bound that keeps the mesh below 2^26 triangles.
+/// Bounds the segments of a grid with half as many rings, so that the mesh has less than 2^26 triangles.
 inline void require_round_segments(const char* name, int segments) {
     require(segments >= 3 && segments <= 8192, name, segments, "3 to 8192");
 }
 
-/// Distance from the centre of a unit ball of `segments` by `rings` to the nearest of its faces. That is one at the
-/// equator; faces are plane there, as trapezia all are.
+/// Distance from the centre of a unit ball of `segments` by `rings` to the nearest of its faces, which is at the
+/// equator. Faces are trapezia, hence plane.
 inline double nearest_face(int segments, int rings) {
     const double across = numeric::sin_cos_turns(0.5 / segments).cosine;  // of half a segment
     const double along = numeric::sin_cos_turns(0.25 / rings).cosine;     // of half a ring
@@ -146,11 +146,10 @@ INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segme
         const ring here{static_cast<std::uint32_t>(out.positions.size()), on_axis && p.normal_radius == 0 ? 0u : 1u};
 
         // A smooth pole is one vertex; the tip of a cone is one per segment, with the normal of that segment's middle.
-        if (here.step == 0) {
+        if (here.step == 0)
             add_vertex(p, {0, 1});
-        } else {
+        else
             for (const auto& angle : on_axis ? half_angles : angles) add_vertex(p, angle);
-        }
 
         const bool joined = k > 0 && (outline[k - 1].radius != p.radius || outline[k - 1].height != p.height);
         const bool below_on_axis = k > 0 && outline[k - 1].radius == 0;

@@ -20,14 +20,14 @@ inline namespace INSONIFY_ABI {
 
 namespace detail {
 
-/// The state that copies of a shared mesh refer to.
+/// State that copies of a shared mesh refer to.
 struct mesh_facts {
     mesh shape;
     bounding_box box;
     surface_kind kind = surface_kind::open;
     std::optional<regular_grid> grid;
 
-    static constexpr double grid_error = 0x1p-12;
+    static constexpr double grid_error = 0x1p-12;  ///< see shared_mesh::grid
 };
 
 }  // namespace detail

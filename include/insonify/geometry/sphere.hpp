@@ -1,4 +1,4 @@
-// Spheres and hemispheres, and by their aspect ellipsoids: boulders, floats, half-buried balls.
+// Spheres and hemispheres, which `aspect` makes ellipsoids: boulders, floats, half-buried balls.
 #pragma once
 
 #include <insonify/geometry/revolution.hpp>
@@ -32,7 +32,12 @@ struct hemisphere {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Turns an outline about z and stretches the result; the normals follow.
+template <class Round>
+float longest_semi_axis(const Round& shape) {
+    return shape.radius * (std::max)((std::max)(shape.aspect.x, shape.aspect.y), shape.aspect.z);
+}
+
+/// Turns an outline about z and stretches the result with its normals.
 inline mesh stretched_round(const std::vector<outline_point>& outline, const char* name, const glm::vec3& aspect,
                             int segments) {
     mesh out = revolve(outline, segments);
@@ -70,17 +75,15 @@ inline mesh to_mesh(const hemisphere& shape) {
 }
 
 /// Fewest segments with which no point of the shape is farther than `deviation` from the mesh's surface, whatever the
-/// shape's own `segments`; of a stretched one, as if it were as large everywhere as along its longest axis.
+/// shape's own `segments`. A stretched one counts as a ball of its longest semi-axis.
 /// @throws invalid_input as `segments_for(radius, chord_error)`, and for shapes that would need more than 8192
 inline int segments_for(const sphere& shape, float deviation) {
-    const float longest = (std::max)((std::max)(shape.aspect.x, shape.aspect.y), shape.aspect.z);
-    return detail::round_segments_for(shape.radius * longest, deviation,
+    return detail::round_segments_for(detail::longest_semi_axis(shape), deviation,
                                       [](int segments) { return (segments + 1) / 2; });
 }
 /// The same for a hemisphere.
 inline int segments_for(const hemisphere& shape, float deviation) {
-    const float longest = (std::max)((std::max)(shape.aspect.x, shape.aspect.y), shape.aspect.z);
-    return detail::round_segments_for(shape.radius * longest, deviation,
+    return detail::round_segments_for(detail::longest_semi_axis(shape), deviation,
                                       [](int segments) { return 2 * ((segments + 3) / 4); });
 }
 

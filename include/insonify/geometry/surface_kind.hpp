@@ -1,5 +1,4 @@
-// Classifies meshes as closed, heightfield or open. Only proven classes are used: renderers skip triangles only where
-// that changes no pixel.
+// Classifies meshes as closed, heightfield or open, so that renderers can skip triangles where that changes no pixel.
 #pragma once
 
 #include <insonify/core/numeric.hpp>
@@ -19,9 +18,9 @@ inline namespace INSONIFY_ABI {
 
 /// Class of a mesh, by which shadow policies choose their casters.
 enum class surface_kind {
-    open,         ///< neither of the two could be proven
-    closed,       ///< each edge is run along as often one way as the other: a ray that comes from outside and ends
-                  ///< outside crosses as many triangles from behind as from the front, whatever the surface intersects
+    open,         ///< not proven to be one of the others
+    closed,       ///< triangles traverse each edge equally often in both directions: a ray that starts and ends outside
+                  ///< crosses as many back faces as front faces, even if the surface intersects itself
     heightfield,  ///< z over a convex part of the xy plane, all triangles counter-clockwise from above
 };
 
@@ -37,13 +36,13 @@ INSONIFY_FUNCTION surface_kind kind_of(const mesh& m);
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Net directed edges of a mesh: those that triangles run along more often one way than the other.
+/// Net directed edges of a mesh: those that triangles traverse more often in one direction than in the other.
 inline std::vector<std::pair<std::uint32_t, std::uint32_t>> unbalanced_edges(const mesh& m) {
     const std::vector<std::uint32_t> first = weld(m.positions);
-    // Edges under their lower vertex, counted, then placed.
+    // Counting sort of edges by their lower vertex.
     struct half_edge {
         std::uint32_t other;
-        std::int32_t way;  ///< 1 upwards in numbers, -1 downwards
+        std::int32_t way;  ///< 1 if it runs from the lower vertex to the higher one, else -1
     };
     std::vector<std::uint32_t> starts(m.positions.size() + 1, 0);
     const auto each = [&](const auto& visit) {

@@ -28,8 +28,8 @@ struct topology {
     std::size_t triangles = 0;       ///< without the degenerate ones
     std::size_t degenerate = 0;      ///< triangles with two coincident corners, not counted elsewhere
     std::size_t boundary_edges = 0;  ///< edges with one triangle
-    std::size_t tangled_edges = 0;   ///< edges with more than two triangles, or two that run along it the same way
-    std::size_t inward_pieces = 0;   ///< connected ones whose triangles face inwards, as those of a cavity do
+    std::size_t tangled_edges = 0;   ///< edges with more than two triangles, or two that traverse it the same way
+    std::size_t inward_pieces = 0;   ///< connected components whose triangles face inwards, such as cavities
 
     /// Every edge joins two triangles of the same orientation.
     bool closed() const { return triangles > 0 && boundary_edges == 0 && tangled_edges == 0; }
@@ -41,7 +41,7 @@ struct topology {
     }
 };
 
-/// For each position, the index of the first that equals it; NaN equals nothing.
+/// For each position, the index of the first equal one; NaN equals nothing.
 inline std::vector<std::uint32_t> weld(const std::vector<glm::vec3>& positions) {
     const auto key = [&](std::uint32_t i) {
         const glm::vec3& p = positions[i];
@@ -55,9 +55,8 @@ inline std::vector<std::uint32_t> weld(const std::vector<glm::vec3>& positions) 
     order.erase(std::remove_if(order.begin(), order.end(), is_nan), order.end());
     std::sort(order.begin(), order.end(),
               [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
-    for (std::size_t i = 1; i < order.size(); ++i) {
+    for (std::size_t i = 1; i < order.size(); ++i)
         if (key(order[i]) == key(order[i - 1])) first[order[i]] = first[order[i - 1]];
-    }
     return first;
 }
 
@@ -71,12 +70,12 @@ inline topology inspect(const mesh& m) {
     // An edge is sorted under its lower vertex; the third element is the triangle's direction along it.
     std::vector<std::tuple<std::uint32_t, std::uint32_t, bool>> sides;
     std::vector<bool> used(m.positions.size());
-    std::vector<std::uint32_t> joined = first;  // to a vertex of the same piece; the root is the piece's id
+    std::vector<std::uint32_t> joined = first;  // union-find: a vertex of the same piece; the root is its id
     const auto piece_of = [&](std::uint32_t vertex) {
         while (joined[vertex] != vertex) vertex = joined[vertex] = joined[joined[vertex]];
         return vertex;
     };
-    std::vector<double> volume(m.positions.size());  // six times those that pieces enclose
+    std::vector<double> volume(m.positions.size());  // by piece, six times the enclosed volume
     sides.reserve(3 * m.triangles.size());
     for (const glm::uvec3& t : m.triangles) {
         const std::uint32_t corners[3] = {first[t.x], first[t.y], first[t.z]};
@@ -109,11 +108,10 @@ inline topology inspect(const mesh& m) {
         const auto [a, b, backwards] = sides[i];
         for (end = i + 1; end < sides.size() && std::get<0>(sides[end]) == a && std::get<1>(sides[end]) == b;) ++end;
         ++out.edges;
-        if (end - i == 1) {
+        if (end - i == 1)
             ++out.boundary_edges;
-        } else if (end - i > 2 || std::get<2>(sides[i + 1]) == backwards) {
+        else if (end - i > 2 || std::get<2>(sides[i + 1]) == backwards)
             ++out.tangled_edges;
-        }
     }
     return out;
 }

@@ -8,6 +8,8 @@
 #include <insonify/core/numeric.hpp>
 #include <insonify/geometry/mesh.hpp>
 
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include <glm/mat3x3.hpp>
@@ -42,7 +44,14 @@ struct affine {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A vector without direction (zero, or not finite) stays as it is.
+/// Messages name the coordinate, as in "pose.position.x".
+template <glm::length_t Length>
+void require_finite(std::string_view argument, const glm::vec<Length, double>& v) {
+    for (glm::length_t i = 0; i < Length; ++i)
+        if (!numeric::is_finite(v[i])) refuse(std::string(argument) + '.' + "xyz"[i], v[i], "finite");
+}
+
+/// The unit vector; a zero or non-finite vector is returned unchanged.
 inline glm::dvec3 unit(const glm::dvec3& n) {
     const double square = numeric::dot(n, n);
     return square > 0 && numeric::is_finite(square) ? n / numeric::square_root(square) : n;
@@ -52,11 +61,11 @@ inline glm::dvec3 unit(const glm::dvec3& n) {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The map of a position.
+/// Transforms a position.
 inline glm::dvec3 transform_point(const affine& map, const glm::dvec3& point) {
     return numeric::product(map.linear, point) + map.offset;
 }
-/// The map of a direction, which an offset does not move. Lengths are not kept.
+/// Transforms a direction, to which the offset does not apply. Its length changes with the scale.
 inline glm::dvec3 transform_direction(const affine& map, const glm::dvec3& direction) {
     return numeric::product(map.linear, direction);
 }
@@ -67,7 +76,7 @@ inline glm::dvec3 transform_normal(const affine& map, const glm::dvec3& normal) 
     return detail::unit(numeric::product(areas, determinant < 0 ? -normal : normal));
 }
 
-/// First `inner`, then `outer`.
+/// The map that applies `inner`, then `outer`.
 inline affine compose(const affine& outer, const affine& inner) {
     return {numeric::product(outer.linear, inner.linear), transform_point(outer, inner.offset)};
 }
@@ -78,7 +87,7 @@ inline affine inverse(const affine& map) {
     const double determinant = numeric::dot(map.linear[0], areas[0]);
     detail::require(determinant != 0 && numeric::is_finite(determinant), "determinant of affine.linear", determinant,
                     "finite and not 0");
-    for (int i = 0; i < 3; ++i) detail::require_finite("affine.offset", map.offset[i]);
+    detail::require_finite("affine.offset", map.offset);
     const glm::dmat3 linear = glm::transpose(areas) / determinant;
     return {linear, -numeric::product(linear, map.offset)};
 }
@@ -87,9 +96,7 @@ inline affine inverse(const affine& map) {
 /// @throws invalid_input for a value that is not finite, or a scale that is not positive (mirror with an `affine`)
 inline affine to_world(const pose& p) {
     using detail::require_finite;
-    require_finite("pose.position.x", p.position.x);
-    require_finite("pose.position.y", p.position.y);
-    require_finite("pose.position.z", p.position.z);
+    require_finite("pose.position", p.position);
     require_finite("pose.yaw", p.yaw);
     require_finite("pose.pitch", p.pitch);
     require_finite("pose.roll", p.roll);
@@ -99,21 +106,20 @@ inline affine to_world(const pose& p) {
     const auto [sy, cy] = numeric::sin_cos(static_cast<double>(p.yaw));
     const auto [sp, cp] = numeric::sin_cos(static_cast<double>(p.pitch));
     const auto [sr, cr] = numeric::sin_cos(static_cast<double>(p.roll));
-    // The columns are where the object's axes go.
+    // Columns are the images of the object's axes.
     const glm::dmat3 rotation(glm::dvec3(cy * cp, sy * cp, -sp),                                    //
                               glm::dvec3(cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, cp * sr),  //
                               glm::dvec3(cy * sp * cr + sy * sr, sy * sp * cr - cy * sr, cp * cr));
     return {static_cast<double>(p.scale) * rotation, p.position - glm::dvec3(0.0, 0.0, static_cast<double>(p.burial))};
 }
 
-/// The mesh under the map, each coordinate rounded to float once. A mirroring map also swaps the winding, so that
+/// The transformed mesh; each coordinate is rounded to float once. A mirroring map also swaps the winding, so that
 /// triangles keep facing outwards.
 inline mesh transformed(mesh m, const affine& map) {
     for (glm::vec3& position : m.positions) position = glm::vec3(transform_point(map, glm::dvec3(position)));
     for (glm::vec3& normal : m.normals) normal = glm::vec3(transform_normal(map, glm::dvec3(normal)));
-    if (numeric::determinant(map.linear) < 0) {
+    if (numeric::determinant(map.linear) < 0)
         for (glm::uvec3& triangle : m.triangles) std::swap(triangle.y, triangle.z);
-    }
     return m;
 }
 

@@ -19,21 +19,20 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Concave polygons with more corners become a fan, which covers too much, so that the time stays linear for any input.
+/// Larger concave polygons become a fan, which covers too much, so that the time is linear for any input.
 inline constexpr std::size_t ear_clipping_limit = 512;
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A polygon seen along its normal: counter-clockwise in the plane of the two axes it is widest in.
+/// A polygon projected along the axis closest to its normal, so that it is counter-clockwise.
 class flat_polygon {
   public:
     explicit flat_polygon(std::span<const glm::vec3> corners) : corners_(corners) {
         // Newell's area vector, relative to the first corner: precise far from the origin.
         glm::dvec3 area(0);
         const glm::dvec3 origin(corners[0]);
-        for (std::size_t i = 2; i < corners.size(); ++i) {
+        for (std::size_t i = 2; i < corners.size(); ++i)
             area += numeric::cross(glm::dvec3(corners[i - 1]) - origin, glm::dvec3(corners[i]) - origin);
-        }
         const glm::dvec3 extent = area * area;
         const int away = extent.x > extent.y ? (extent.x > extent.z ? 0 : 2) : (extent.y > extent.z ? 1 : 2);
         u_ = (away + (area[away] < 0 ? 2 : 1)) % 3;
@@ -45,7 +44,7 @@ class flat_polygon {
         const glm::dvec2 p = at(a), q = at(b), r = at(c);
         return (q.x - p.x) * (r.y - q.y) - (q.y - p.y) * (r.x - q.x);
     }
-    /// Inside or on the border of the triangle, but not in the place of one of its corners.
+    /// Whether a point lies inside or on the border of a triangle, and not at one of its corners.
     bool covered(std::size_t point, std::size_t a, std::size_t b, std::size_t c) const {
         const glm::dvec2 p = at(point);
         return turn(a, b, point) >= 0 && turn(b, c, point) >= 0 && turn(c, a, point) >= 0 && p != at(a) && p != at(b) &&
@@ -59,6 +58,7 @@ class flat_polygon {
     int u_, v_;
 };
 
+/// Appends the triangles of a concave polygon by ear clipping.
 inline void clip_ears(const flat_polygon& polygon, std::uint32_t count, std::vector<glm::uvec3>& triangles) {
     struct corner {
         std::uint32_t previous, next;
@@ -74,9 +74,8 @@ inline void clip_ears(const flat_polygon& polygon, std::uint32_t count, std::vec
     const auto is_ear = [&](std::uint32_t i) {
         const auto [previous, next, reflex, ear] = ring[i];
         if (reflex) return false;
-        for (std::uint32_t r = ring[next].next; r != previous; r = ring[r].next) {
+        for (std::uint32_t r = ring[next].next; r != previous; r = ring[r].next)
             if (ring[r].reflex && polygon.covered(r, previous, i, next)) return false;
-        }
         return true;
     };
     for (std::uint32_t i = 0; i < count; ++i) ring[i].ear = is_ear(i);
@@ -100,18 +99,16 @@ inline void clip_ears(const flat_polygon& polygon, std::uint32_t count, std::vec
 
 inline namespace INSONIFY_FLAGS {
 
-/// Appends `corners.size() - 2` triangles that cover the polygon and face as it does, as numbers of its corners.
-/// Exact for simple polygons, also slightly bent ones; one that crosses itself is covered somehow. Nothing is appended
-/// for fewer than three corners.
+/// Appends `corners.size() - 2` triangles that cover the polygon and face as it does, as indices of its corners.
+/// Exact for simple polygons, also slightly non-planar ones; a self-intersecting one gets some triangulation. Nothing
+/// is appended for fewer than three corners.
 inline void triangulate(std::span<const glm::vec3> corners, std::vector<glm::uvec3>& triangles) {
     const auto count = static_cast<std::uint32_t>(corners.size());
     if (count > 3 && count <= ear_clipping_limit) {
         const detail::flat_polygon polygon(corners);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            if (polygon.turn(i, (i + 1) % count, (i + 2) % count) < 0) {
+        for (std::uint32_t i = 0; i < count; ++i)
+            if (polygon.turn(i, (i + 1) % count, (i + 2) % count) < 0)
                 return detail::clip_ears(polygon, count, triangles);
-            }
-        }
     }
     for (std::uint32_t i = 2; i < count; ++i) triangles.emplace_back(0u, i - 1, i);
 }

@@ -1,14 +1,13 @@
 // Whole-file reads and atomic writes: a reader finds the old file or the new one, never a part.
 #pragma once
 
-#include <insonify/core/error.hpp>
+#include <insonify/core/detail/file.hpp>
 
 #include <cerrno>
 #include <cstddef>
 #include <cstdio>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #if defined(__unix__) || defined(__APPLE__)
@@ -17,7 +16,7 @@
 #endif
 
 #if defined(_WIN32)
-// std::rename does not replace a file there; this does.
+// std::rename of Windows does not replace files.
 extern "C" __declspec(dllimport) int __stdcall MoveFileExA(const char* from, const char* to, unsigned long flags);
 #endif
 
@@ -25,35 +24,6 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
-
-[[noreturn]] inline void raise_io(std::string_view path, std::string_view reason) {
-    raise(io_error(std::string(path) + ": " + std::string(reason)));
-}
-[[noreturn]] inline void raise_io(std::string_view path, std::string_view reason, int error) {
-    raise_io(path, std::string(reason) + ": " + std::error_code(error, std::generic_category()).message());
-}
-
-/// Owns an open file.
-class file_handle {
-  public:
-    file_handle() = default;
-    file_handle(const std::string& path, const char* mode) : stream_(std::fopen(path.c_str(), mode)) {}
-    file_handle(file_handle&& other) noexcept : stream_(std::exchange(other.stream_, nullptr)) {}
-    file_handle& operator=(file_handle&& other) noexcept {
-        std::swap(stream_, other.stream_);
-        return *this;
-    }
-    ~file_handle() { close(); }
-
-    std::FILE* get() const { return stream_; }
-    bool close() {
-        std::FILE* const open = std::exchange(stream_, nullptr);
-        return open == nullptr || std::fclose(open) == 0;
-    }
-
-  private:
-    std::FILE* stream_ = nullptr;
-};
 
 inline bool sync_to_disk(std::FILE* stream) {
     if (std::fflush(stream) != 0) return false;
@@ -64,14 +34,14 @@ inline bool sync_to_disk(std::FILE* stream) {
 #endif
 }
 
-/// The folder that `path` is in, as a path.
+/// Path of the folder that contains `path`.
 inline std::string folder_of(const std::string& path) {
     const std::size_t slash = path.find_last_of('/');
     return slash == std::string::npos ? "." : path.substr(0, slash + 1);
 }
 
-/// Syncs a folder's entries to disk. Failure is ignored, as some network file systems cannot sync folders: the file
-/// itself is on disk.
+/// Syncs a folder's entries to disk. Failure is ignored: the file itself is on disk, and some network file systems
+/// cannot sync folders.
 inline void sync_folder(const std::string& folder) noexcept {
 #if defined(__unix__) || defined(__APPLE__)
     const int handle = ::open(folder.c_str(), O_RDONLY | O_CLOEXEC);
@@ -101,19 +71,7 @@ inline namespace INSONIFY_FLAGS {
 /// The bytes of a file.
 /// @throws io_error if it can't be opened or read
 inline std::string read_file(const std::string& path) {
-    errno = 0;
-    const detail::file_handle file(path, "rb");
-    if (file.get() == nullptr) detail::raise_io(path, "can't open for reading", errno);
-    // Read until the end: pipes report no size.
-    std::string bytes;
-    std::size_t filled = 0;
-    do {
-        bytes.resize(filled == 0 ? 65536 : 2 * filled);
-        filled += std::fread(bytes.data() + filled, 1, bytes.size() - filled, file.get());
-    } while (filled == bytes.size());
-    if (std::ferror(file.get()) != 0) detail::raise_io(path, "can't read", errno);
-    bytes.resize(filled);
-    return bytes;
+    return detail::file_bytes(path);
 }
 
 /// A temporary file beside the one that it will replace. `commit` syncs it to disk and renames it; without a commit it
@@ -129,9 +87,8 @@ class replacement_file {
             temporary_ = path_ + ".tmp" + detail::to_text(number);
             errno = 0;
             file_ = detail::file_handle(temporary_, "wbx");  // x: only if there is no such file
-            if (file_.get() == nullptr && (errno != EEXIST || number == 9999)) {
+            if (file_.get() == nullptr && (errno != EEXIST || number == 9999))
                 detail::raise_io(path_, "can't open for writing", errno);
-            }
         }
     }
     replacement_file(const replacement_file&) = delete;

@@ -61,11 +61,10 @@ class csv_table {
     template <csv_cell Cell>
     void append(std::string& line, const Cell& cell, std::size_t index) const {
         if (index > 0) line += ',';
-        if constexpr (detail::csv_text<Cell>) {
+        if constexpr (detail::csv_text<Cell>)
             append_text(line, cell);
-        } else {
+        else
             line += detail::to_text(cell);
-        }
     }
     void append_text(std::string& line, std::string_view cell) const {
         // An empty cell alone would make an empty line, which readers skip.

@@ -87,7 +87,7 @@ TEST_CASE("Headers with sizes that the file does not have are refused before mem
     for (const char* width :
          {"0", "-1", "+1", "1.5", "1e3", "0x10", "1073741825", "4294967297", "99999999999999999999", "\xFF"}) {
         CHECK_THAT(refusal<std::uint8_t>("P5 "s + width + " 1 255\n0"),
-                   ContainsSubstring("width is \"" + std::string(width)));
+                   ContainsSubstring("width is '" + std::string(width)));
     }
     for (const char* maxval : {"0", "-5", "65536"}) {
         CHECK_THAT(refusal<std::uint16_t>("P5 1 1 "s + maxval + "\n0"), ContainsSubstring("expected 1 to 65535"));
@@ -107,7 +107,7 @@ TEST_CASE("Headers with sizes that the file does not have are refused before mem
     CHECK_THAT(refusal<std::uint8_t>("P2 2 2 255 1 200 3    "), ContainsSubstring("ends before the sample"));
     CHECK_THAT(refusal<std::uint8_t>("P5 1 1 255"), ContainsSubstring("no white space after the header"));
     CHECK_THAT(refusal<std::uint8_t>("P5 1 1 100\n\x65"), ContainsSubstring("sample is 101, expected 0 to 100"));
-    CHECK_THAT(refusal<std::uint8_t>("P2 1 1 100 101"), ContainsSubstring("sample is \"101\", expected 0 to 100"));
+    CHECK_THAT(refusal<std::uint8_t>("P2 1 1 100 101"), ContainsSubstring("sample is '101', expected 0 to 100"));
 }
 
 TEST_CASE("A file that doesn't fit the pixel type is refused") {

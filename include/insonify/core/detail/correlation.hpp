@@ -14,8 +14,9 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Half of the symmetric taps, from the middle outwards; white noise keeps its variance. They are the Fourier transform
-/// of the root of the autocorrelation's spectrum: a sampled Gaussian would correlate too little below a length of 2.
+/// Taps from the middle outwards, half of a symmetric filter that preserves the variance of white noise. They are the
+/// Fourier transform of the root of the autocorrelation's spectrum: a sampled Gaussian would correlate too little below
+/// a length of 2.
 /// @param length  distance at which the autocorrelation has fallen to 1 / e, 0 to 50; 0: white
 inline std::vector<float> field_taps(double length) {
     constexpr std::size_t period = 512, half = period / 2;

@@ -71,7 +71,7 @@ struct double_double {
     struct parts {
         double upper, lower;
     };
-    /// Twenty-six bits each, so that products of halves are exact.
+    /// Splits a number into halves of 26 bits, whose products are exact.
     static parts halves(double a) {
         const double c = 134217729.0 * a;
         const double upper = c - (c - a);

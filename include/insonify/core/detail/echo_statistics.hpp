@@ -24,12 +24,11 @@ inline float look_intensity(float re, float im, float steady, int looks) {
     return (real * real + im * im) / ((1 + steady) * static_cast<float>(looks));
 }
 
-/// One trial at N gamma-distributed numbers of mean one, from four words each; `settled` where it succeeded, as 19 of
-/// 20 do.
-///
+/// One rejection trial for N gamma-distributed numbers of mean one, from four words each. Sets `accepted` in the lanes
+/// that pass, 19 of 20.
 /// @param shape  above 0
 template <int N>
-INSONIFY_INLINE void try_gamma(lanes<double, N>& number, lanes<std::int64_t, N>& settled,
+INSONIFY_INLINE void try_gamma(lanes<double, N>& number, lanes<std::int64_t, N>& accepted,
                                const lanes<std::uint64_t, N> (&word)[4], const lanes<double, N>& shape) {
     using doubles = lanes<double, N>;
     using flags = lanes<std::int64_t, N>;
@@ -43,7 +42,7 @@ INSONIFY_INLINE void try_gamma(lanes<double, N>& number, lanes<std::int64_t, N>&
     const doubles root = 1.0 + c * x, v = root * root * root;
     log_lanes<N>(u, u);
     log_lanes<N>(log_v, v > 0.0 ? v : doubles{} + 1.0);
-    settled = flags(v > 0.0) & flags(u < 0.5 * x * x + d * (1.0 - v + log_v));
+    accepted = flags(v > 0.0) & flags(u < 0.5 * x * x + d * (1.0 - v + log_v));
     number = d * v / shape;
     for (int k = 0; k < N; ++k) {
         if (lane(shape, k) < 1) {
@@ -55,7 +54,6 @@ INSONIFY_INLINE void try_gamma(lanes<double, N>& number, lanes<std::int64_t, N>&
 }
 
 /// A gamma-distributed number of mean one.
-///
 /// @param draw  draw(trial) makes four fresh words
 template <class Draw>
 double gamma_of_mean_one(double shape, const Draw& draw) {
@@ -63,9 +61,9 @@ double gamma_of_mean_one(double shape, const Draw& draw) {
         const philox_counter words = draw(trial);
         const std::uint64_t word[4] = {words[0], words[1], words[2], words[3]};
         double number;
-        std::int64_t settled;
-        try_gamma<1>(number, settled, word, shape);
-        if (settled != 0) return number;
+        std::int64_t accepted;
+        try_gamma<1>(number, accepted, word, shape);
+        if (accepted != 0) return number;
     }
 }
 
@@ -97,8 +95,8 @@ inline double mean_of_rice(double steady) {
     return half_root_pi * sum * numeric::exp(-steady) / numeric::square_root(1 + steady);
 }
 
-/// Length of a field whose law makes intensities with a correlation of 1 / e at `length`.
-/// @param of_field  the intensities' correlation for a correlation of the field; rises from 0 at 0 to 1 at 1
+/// Correlation length of the Gaussian field whose intensities have a correlation of 1 / e at `length`.
+/// @param of_field  correlation of the intensities for one of the field; rises from 0 at 0 to 1 at 1
 template <class Law>
 double field_length(double length, const Law& of_field) {
     double low = 0, high = 1;

@@ -19,7 +19,7 @@ struct int128 {
 
     static constexpr int128 product(std::int64_t a, std::int64_t b) {
         const bool negative = (a < 0) != (b < 0);
-        const std::uint64_t x = size(a), y = size(b);
+        const std::uint64_t x = abs(a), y = abs(b);
         const std::uint64_t x0 = x & half, x1 = x >> 32, y0 = y & half, y1 = y >> 32;
         const std::uint64_t middle = x1 * y0 + ((x0 * y0) >> 32);
         const std::uint64_t carry = x0 * y1 + (middle & half);
@@ -54,7 +54,7 @@ struct int128 {
 
   private:
     static constexpr std::uint64_t half = 0xFFFFFFFFu;
-    static constexpr std::uint64_t size(std::int64_t v) {
+    static constexpr std::uint64_t abs(std::int64_t v) {
         return v < 0 ? ~static_cast<std::uint64_t>(v) + 1 : static_cast<std::uint64_t>(v);
     }
 };

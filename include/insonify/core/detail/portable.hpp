@@ -39,12 +39,12 @@ constexpr To bit_cast(const From& from) noexcept {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// What became of a text that should be a number.
+/// Outcome of parsing a number.
 enum class number_text { fine, malformed, out_of_range };
 
 /// Reads all of a text as a decimal number, with a sign or without, whatever the locale.
 inline number_text parse_number(std::string_view text, double& value) {
-    // from_chars takes no plus, so it is stepped over, but not before a minus.
+    // from_chars does not accept a plus sign.
     if (text.substr(0, 1) == "+" && text.substr(1, 1) != "-") text.remove_prefix(1);
     const char *const first = text.data(), *const last = first + text.size();
 #if defined(__cpp_lib_to_chars)

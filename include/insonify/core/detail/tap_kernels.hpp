@@ -1,4 +1,4 @@
-// The taps of correlation.hpp, applied to rows: along a row, and across several.
+// Convolves rows of noise with symmetric taps (see correlation.hpp), along a row or across rows.
 #pragma once
 
 #include <insonify/core/simd/dispatch.hpp>

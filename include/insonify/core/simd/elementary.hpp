@@ -136,11 +136,11 @@ INSONIFY_INLINE void cos_sin_turns(lanes<float, N>& cosine, lanes<float, N>& sin
 template <int N>
 INSONIFY_INLINE void square_root(lanes<double, N>& into, const lanes<double, N>& of) {
 #if INSONIFY_SIMD && defined(__SSE2__)
-    if constexpr (N == 2) {
+    if constexpr (N == 2)
         into = __builtin_ia32_sqrtpd(of);
-    } else if constexpr (N % 2 == 0) {
+    else if constexpr (N % 2 == 0)
         in_halves<N>(into, of, [](auto& half, const auto& from) { square_root<N / 2>(half, from); });
-    } else
+    else
 #endif
         gather<N>(into, [&](int k) { return numeric::square_root(lane(of, k)); });
 }

@@ -169,11 +169,11 @@ INSONIFY_INLINE void in_halves(Lanes& into, const Lanes& of, const Work& work) {
 template <int N>
 INSONIFY_INLINE void square_root(lanes<float, N>& into, const lanes<float, N>& of) {
 #if INSONIFY_SIMD && defined(__SSE2__)
-    if constexpr (N == 4) {
+    if constexpr (N == 4)
         into = __builtin_ia32_sqrtps(of);
-    } else if constexpr (N % 4 == 0) {
+    else if constexpr (N % 4 == 0)
         in_halves<N>(into, of, [](auto& half, const auto& from) { square_root<N / 2>(half, from); });
-    } else
+    else
 #endif
         gather<N>(into, [&](int k) { return std::sqrt(lane(of, k)); });
 }

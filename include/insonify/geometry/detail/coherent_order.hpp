@@ -25,7 +25,7 @@ inline bool is_incoherent(const mesh& m) {
         bool is_near = false;
         for (int j = 0; j < 3; ++j) {
             const std::uint32_t v = b[j];
-            // Nearby numbers are nearby in memory, too.
+            // Adjacent indices are adjacent in memory, too.
             for (int k = 0; k < 3; ++k) is_near = is_near || (v > a[k] ? v - a[k] : a[k] - v) < 64;
         }
         jumps += is_near ? 0u : 1u;
@@ -33,7 +33,7 @@ inline bool is_incoherent(const mesh& m) {
     return jumps > m.triangles.size() / 2;
 }
 
-/// Every third bit of the result is a bit of the value.
+/// Spaces the bits of a value three apart.
 inline std::uint64_t every_third_bit(std::uint64_t value) {
     value = (value | value << 32) & 0x001F00000000FFFFu;
     value = (value | value << 16) & 0x001F0000FF0000FFu;
@@ -52,8 +52,8 @@ inline void order_along_curve(mesh& m, const bounding_box& box) {
             double sum = 0;
             for (int k = 0; k < 3; ++k) sum += static_cast<double>(m.positions[m.triangles[i][k]][axis]);
             const double share = size[axis] > 0 ? (sum / 3 - box.lower[axis]) / size[axis] : 0;
-            const double held = share > 0 ? (share < 1 ? share : 1.0) : 0.0;  // NaN, too
-            key |= every_third_bit(static_cast<std::uint64_t>(held * 2097151)) << axis;
+            const double clamped = share > 0 ? (share < 1 ? share : 1.0) : 0.0;  // NaN becomes 0
+            key |= every_third_bit(static_cast<std::uint64_t>(clamped * 2097151)) << axis;
         }
         order[i] = {key, static_cast<std::uint32_t>(i)};
     }

@@ -19,11 +19,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The lattice of cells one of which a triangle halves.
+/// The lattice of which a triangle is half a cell.
 class triangle_lattice {
   public:
-    /// The longest edge is the diagonal of a cell. The first axis is the one closer to x; both point to larger
-    /// coordinates.
+    /// The lattice of the first triangle, whose longest edge is the diagonal of a cell. The first axis is the one
+    /// closer to x; both point to larger coordinates.
     static std::optional<triangle_lattice> of(const mesh& m) {
         if (m.triangles.size() < 2) return std::nullopt;
         glm::dvec2 corner[3];
@@ -109,8 +109,8 @@ struct lattice_vertices {
     }
 };
 
-/// Whether all cells are cut from the lower left to the upper right corner; none if the triangles are not the halves of
-/// all cells, cut the same way and counter-clockwise.
+/// Whether cells are cut from the lower left to the upper right corner. None unless the triangles are the halves of all
+/// cells, cut the same way and counter-clockwise.
 inline std::optional<bool> rising_diagonals(const mesh& m, const lattice_vertices& v) {
     std::vector<bool> found(m.triangles.size(), false);
     std::optional<bool> is_rising;
@@ -135,8 +135,8 @@ inline std::optional<bool> rising_diagonals(const mesh& m, const lattice_vertice
     return is_rising;
 }
 
-/// Renumbers a mesh that is a whole lattice of cells, each cut the same way into two triangles that are
-/// counter-clockwise seen from +z: vertices row by row, triangles cell by cell. Any other mesh stays as it is.
+/// Reorders a mesh that is a complete lattice of cells, each cut the same way into two triangles that are
+/// counter-clockwise seen from +z: vertices row by row, triangles cell by cell. Other meshes are left unchanged.
 /// @returns whether the mesh is such a lattice
 inline bool order_by_lattice(mesh& m) {
     const auto lattice = triangle_lattice::of(m);

@@ -58,11 +58,11 @@ inline void validate(const aeroplane& a) {
     require_range("aeroplane.tail_span", a.tail_span, 1.2f * a.fuselage_diameter, a.span,
                   "1.2 fuselage diameters to the span");
     require_range("aeroplane.fin_height", a.fin_height, l / 50, l / 3, "length / 50 to length / 3");
-    require(a.engines >= 0 && a.engines <= 4, "aeroplane.engines", a.engines, "0 to 4");
+    require_range("aeroplane.engines", a.engines, 0, 4, "0 to 4");
     require(a.propeller_diameter == 0 || (a.propeller_diameter >= l / 50 && a.propeller_diameter <= l),
             "aeroplane.propeller_diameter", a.propeller_diameter, "0, or length / 50 to length");
-    detail::require_share("aeroplane.port_wing", a.port_wing);
-    detail::require_share("aeroplane.starboard_wing", a.starboard_wing);
+    detail::require_fraction("aeroplane.port_wing", a.port_wing);
+    detail::require_fraction("aeroplane.starboard_wing", a.starboard_wing);
     require_range("aeroplane.torn_off", a.torn_off, 0, 10 * l, "0 to 10 lengths");
     require_range("aeroplane.tail_gap", a.tail_gap, 0, 10 * l, "0 to 10 lengths");
     require_range("aeroplane.tail_yaw", a.tail_yaw, -1.6f, 1.6f, "-1.6 to 1.6 radians");

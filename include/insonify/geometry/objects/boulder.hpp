@@ -1,6 +1,7 @@
 // Boulders: rounded by water, or angular where they broke.
 #pragma once
 
+#include <insonify/geometry/bounds.hpp>
 #include <insonify/geometry/objects/creases.hpp>
 #include <insonify/geometry/objects/detail/lattice_noise.hpp>
 #include <insonify/geometry/objects/detail/solids.hpp>
@@ -25,22 +26,6 @@ struct boulder {
     int segments = 20;                  ///< along each of the 12 edges of the octahedron it is made from, 2 to 256
     std::uint64_t seed = 1;
 };
-
-inline namespace INSONIFY_FLAGS {
-
-/// @throws invalid_input for a value outside its range
-inline void validate(const boulder& b) {
-    const float largest = (std::max)((std::max)(b.size.x, b.size.y), b.size.z);
-    for (int i = 0; i < 3; ++i) {
-        detail::require_size("boulder.size", b.size[i]);
-        detail::require(100 * b.size[i] >= largest, "boulder.size", b.size[i], "at least 1/100 of the largest");
-    }
-    detail::require_share("boulder.angularity", b.angularity);
-    detail::require_share("boulder.roughness", b.roughness);
-    detail::require_segments("boulder.segments", b.segments, 2, 256);
-}
-
-}  // namespace INSONIFY_FLAGS
 
 namespace detail::inline INSONIFY_FLAGS {
 
@@ -92,6 +77,18 @@ inline mesh geodesic_sphere(int n) {
 
 inline namespace INSONIFY_FLAGS {
 
+/// @throws invalid_input for a value outside its range
+inline void validate(const boulder& b) {
+    const float largest = (std::max)((std::max)(b.size.x, b.size.y), b.size.z);
+    for (int i = 0; i < 3; ++i) {
+        detail::require_size("boulder.size", b.size[i]);
+        detail::require(100 * b.size[i] >= largest, "boulder.size", b.size[i], "at least 1/100 of the largest");
+    }
+    detail::require_fraction("boulder.angularity", b.angularity);
+    detail::require_fraction("boulder.roughness", b.roughness);
+    detail::require_segments("boulder.segments", b.segments, 2, 256);
+}
+
 /// 8 segments^2 triangles. Deterministic in the seed.
 /// @throws invalid_input as `validate` does
 inline mesh to_mesh(const boulder& b) {
@@ -110,7 +107,7 @@ inline mesh to_mesh(const boulder& b) {
     const philox_key key = stream_key(b.seed, 0x726F636C);
 
     mesh body = detail::geodesic_sphere(b.segments);
-    glm::dvec3 low(1e9), high(-1e9);
+    bounding_box box;
     std::vector<glm::dvec3> points;
     for (const glm::vec3& position : body.positions) {
         const glm::dvec3 direction(position);
@@ -124,13 +121,10 @@ inline mesh to_mesh(const boulder& b) {
         for (int i = 0; i < 5; ++i, octave *= 0.55, frequency *= 2.1)
             radius += octave * detail::lattice_noise(frequency * direction + glm::dvec3(7.0 * i), key);
         points.push_back(radius * direction);
-        for (int i = 0; i < 3; ++i) {
-            low[i] = (std::min)(low[i], points.back()[i]);
-            high[i] = (std::max)(high[i], points.back()[i]);
-        }
+        box = include(box, points.back());
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const glm::dvec3 share = (points[i] - low) / (high - low);
+        const glm::dvec3 share = (points[i] - box.lower) / box.size();
         body.positions[i] = glm::vec3((share - glm::dvec3(0.5, 0.5, 0)) * glm::dvec3(b.size));
     }
     return with_creases(body, 0.5f);

@@ -21,8 +21,8 @@ struct crate {
     int boards = 5;                    ///< one above another on each side, 1 to 64
     float gap = 0.1f;                  ///< share of a board's width that is open between two, 0.01 to 0.9
     bool is_open = false;              ///< the lid is missing
-    float damage = 0;                  ///< share of side and lid boards that are missing, 0 to 1
-    std::uint64_t seed = 1;            ///< which ones
+    float damage = 0;                  ///< fraction of side and lid boards that are missing, 0 to 1
+    std::uint64_t seed = 1;            ///< selects the missing ones
 };
 
 inline namespace INSONIFY_FLAGS {
@@ -37,9 +37,9 @@ inline void validate(const crate& c) {
     }
     detail::require(c.board >= 1e-3f * largest && c.board <= 0.1f * least, "crate.board", c.board,
                     "at least 1/1000 of the largest size, at most 1/10 of the least");
-    detail::require(c.boards >= 1 && c.boards <= 64, "crate.boards", c.boards, "1 to 64");
-    detail::require(c.gap >= 0.01f && c.gap <= 0.9f, "crate.gap", c.gap, "0.01 to 0.9");
-    detail::require_share("crate.damage", c.damage);
+    detail::require_range("crate.boards", c.boards, 1, 64, "1 to 64");
+    detail::require_range("crate.gap", c.gap, 0.01f, 0.9f, "0.01 to 0.9");
+    detail::require_fraction("crate.damage", c.damage);
 }
 
 /// 12 triangles for each board and post: 6 boards + 4 of them when nothing is missing.
@@ -51,7 +51,7 @@ inline mesh to_mesh(const crate& c) {
     mesh body;
     random_sequence draw(c.seed, 0x62726474);
     const auto stays = [&] { return draw.uniform() >= static_cast<double>(c.damage); };
-    // The extent of a board among those that share a length; the outermost reach its ends.
+    // The extent of board i of a row that fills [low, high].
     struct extent {
         double low, high;
     };

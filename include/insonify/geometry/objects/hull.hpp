@@ -20,7 +20,7 @@ namespace detail::inline INSONIFY_FLAGS {
 enum class hull_part : std::size_t { plating, decks, house, rigging, machinery, debris, count };
 using hull_parts = std::array<mesh, static_cast<std::size_t>(hull_part::count)>;
 
-/// Openings in the deck, spread over what the deckhouse leaves free.
+/// Hatch openings, distributed over the deck fore and aft of the deckhouse.
 inline std::vector<deck_plate> hatches_of(const hull& h) {
     const stretch_of_hull house = h.house_length > 0 ? house_of(h) : stretch_of_hull{0.07, 0.07};
     const stretch_of_hull free[2] = {{0.1, house.from - 0.01}, {house.to + 0.02, 0.87}};
@@ -38,7 +38,23 @@ inline std::vector<deck_plate> hatches_of(const hull& h) {
     return out;
 }
 
-/// Decks with their openings, and their beams; plate by plate where they decay.
+/// Deck beams of a collapsed ship, which outlast the planks above them.
+inline void append_beams(mesh& into, const hull_lines& lines, const stretch_of_hull& part, random_sequence& draw) {
+    const double c = lines.collapse();
+    const int beams = 28;
+    for (int i = 1; c > 0 && i < beams; ++i) {
+        const double u = 0.04 + 0.9 * (i + 0.31) / beams, drop = draw.uniform();
+        if (draw.uniform() < c * c * 1.1 || !part.contains(u)) continue;
+        const double low = lines.deck_height(u) * (1 - 0.25 * c * drop) - 2 * lines.plating(),
+                     w = 0.85 * lines.deck_w(u);
+        const glm::dvec3 port = lines.between(u, w, 0.98, low), starboard = lines.between(u, w, -0.98, low);
+        const glm::dvec3 along(0.5 * lines.plating(), 0, 0), up(0, 0, lines.plating());
+        append_block(into, {{port - along, port + along, port + along + up, port - along + up}},
+                     {{starboard - along, starboard + along, starboard + along + up, starboard - along + up}});
+    }
+}
+
+/// Decks with hatch openings and coamings. In a collapsed ship the plating is in pieces, some of which are missing.
 inline void append_decks(mesh& into, const hull& h, const hull_lines& lines, const stretch_of_hull& part,
                          random_sequence& draw) {
     const std::vector<deck_plate> hatches = hatches_of(h);
@@ -65,24 +81,11 @@ inline void append_decks(mesh& into, const hull& h, const hull_lines& lines, con
     }
     if (c < 0.6)
         for (const deck_plate& hatch : hatches)
-            if (part.holds(hatch.from) && part.holds(hatch.to))
+            if (part.contains(hatch.from) && part.contains(hatch.to))
                 append_coaming(into, lines, hatch, 0.18 * lines.depth());
-
-    // Beams stay when the planks above them have gone.
-    const int beams = 28;
-    for (int i = 1; c > 0 && i < beams; ++i) {
-        const double u = 0.04 + 0.9 * (i + 0.31) / beams, drop = draw.uniform();
-        if (draw.uniform() < c * c * 1.1 || !part.holds(u)) continue;
-        const double low = lines.deck_height(u) * (1 - 0.25 * c * drop) - 2 * lines.plating(),
-                     w = 0.85 * lines.deck_w(u);
-        const glm::dvec3 port = lines.between(u, w, 0.98, low), starboard = lines.between(u, w, -0.98, low);
-        const glm::dvec3 along(0.5 * lines.plating(), 0, 0), up(0, 0, lines.plating());
-        append_block(into, {{port - along, port + along, port + along + up, port - along + up}},
-                     {{starboard - along, starboard + along, starboard + along + up, starboard - along + up}});
-    }
 }
 
-/// What lies between two stations, as if the rest were not there.
+/// Builds the stretch of a ship between two stations.
 inline hull_parts build_hull(const hull& h, const stretch_of_hull& part) {
     const hull_lines lines(h);
     hull_parts out;
@@ -94,28 +97,29 @@ inline hull_parts build_hull(const hull& h, const stretch_of_hull& part) {
         append_bulkhead(of(hull_part::plating), lines, (std::max)(0.004, 0.6 * lines.plating() / lines.length()),
                         0.985 * (std::min)(lines.standing(0, 1), lines.standing(0, -1)));
     for (const double u : {0.065, 0.31, 0.6, 0.93})
-        if (part.holds(u))
+        if (part.contains(u))
             append_bulkhead(of(hull_part::plating), lines, u, lines.deck_w(u) * 0.97 * (1 - 0.55 * lines.collapse()));
     const int frames = 36;
     for (int i = 0; i < frames; ++i) {
         const double u = 0.03 + 0.93 * (i + 0.17) / frames;
         for (const double side : {-1.0, 1.0}) {
-            // Ribs outlast the plates between them.
+            // Frames outlast the plates between them.
             const double extra = 0.3 * lines.collapse() * draw.uniform();
-            if (part.holds(u))
+            if (part.contains(u))
                 append_frame(of(hull_part::plating), lines, u, side,
                              (std::min)(lines.standing(u, side) + extra - 0.02, 0.97 * lines.deck_w(u)),
                              (std::max)(0.05 * lines.half_beam(), lines.plating()));
         }
     }
     append_decks(of(hull_part::decks), h, lines, part, draw);
+    append_beams(of(hull_part::decks), lines, part, draw);
     append_house(of(hull_part::house), h, lines, part);
     const stretch_of_hull house = house_of(h);
     for (int i = 0; i < h.masts; ++i) {
         // From the bow aft, between the hatches, clear of the house.
         const double u =
             i == 0 ? 0.885 : house.to + (0.885 - house.to) * (1 - static_cast<double>(i) / h.masts) - 0.012 * (i + 1);
-        if (part.holds(u)) append_mast(of(hull_part::rigging), h, lines, u, i % 2 == 0 ? 1 : -1);
+        if (part.contains(u)) append_mast(of(hull_part::rigging), h, lines, u, i % 2 == 0 ? 1 : -1);
     }
     if (lines.collapse() > 0.25 && h.has_funnel) append_machinery(of(hull_part::machinery), h, lines, part);
     append_debris(of(hull_part::debris), lines, part, static_cast<int>(60 * lines.collapse()), draw);

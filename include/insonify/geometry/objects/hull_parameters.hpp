@@ -63,15 +63,15 @@ inline void validate(const hull& h) {
     require_range("hull.plating", h.plating, h.length / 2000, h.beam / 16, "length / 2000 to beam / 16");
     require_range("hull.house_length", h.house_length, 0, 0.5f, "0 to 0.5");
     require_range("hull.house_position", h.house_position, -0.35f, 0.3f, "-0.35 to 0.3");
-    require(h.house_tiers >= 1 && h.house_tiers <= 4, "hull.house_tiers", h.house_tiers, "1 to 4");
-    require(h.hatches >= 0 && h.hatches <= 8, "hull.hatches", h.hatches, "0 to 8");
-    require(h.masts >= 0 && h.masts <= 4, "hull.masts", h.masts, "0 to 4");
+    require_range("hull.house_tiers", h.house_tiers, 1, 4, "1 to 4");
+    require_range("hull.hatches", h.hatches, 0, 8, "0 to 8");
+    require_range("hull.masts", h.masts, 0, 4, "0 to 4");
     require_range("hull.mast_height", h.mast_height, h.length / 1000, h.length, "length / 1000 to length");
     require_range("hull.break_gap", h.break_gap, 0, h.length, "0 to length");
     require_range("hull.break_position", h.break_position, -0.4f, 0.4f, "-0.4 to 0.4");
     require_range("hull.break_yaw", h.break_yaw, -1.6f, 1.6f, "-1.6 to 1.6");
     require_range("hull.break_roll", h.break_roll, -1.6f, 1.6f, "-1.6 to 1.6");
-    detail::require_share("hull.collapse", h.collapse);
+    detail::require_fraction("hull.collapse", h.collapse);
     detail::require_segments("hull.segments", h.segments, 16, 1024);
 }
 

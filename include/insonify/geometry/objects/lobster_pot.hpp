@@ -28,28 +28,6 @@ struct lobster_pot {
     int segments = 12;        ///< straight pieces of a hoop, 6 to 256
 };
 
-inline namespace INSONIFY_FLAGS {
-
-/// @throws invalid_input for a value outside its range
-inline void validate(const lobster_pot& p) {
-    detail::require_size("lobster_pot.length", p.length);
-    detail::require_size("lobster_pot.width", p.width);
-    detail::require_size("lobster_pot.height", p.height);
-    const float largest = (std::max)((std::max)(p.length, p.width), p.height);
-    const float least = (std::min)((std::min)(p.length, p.width), p.height);
-    detail::require(p.bar >= 1e-3f * largest && p.bar <= 0.125f * least, "lobster_pot.bar", p.bar,
-                    "1/1000 of the largest to 1/8 of the least size");
-    detail::require(p.hoops >= 2 && p.hoops <= 16, "lobster_pot.hoops", p.hoops, "2 to 16");
-    detail::require(p.mesh_size == 0 || (p.mesh_size >= largest / 64 && p.mesh_size <= largest),
-                    "lobster_pot.mesh_size", p.mesh_size, "0, or 1/64 to 1 of the largest size");
-    detail::require(p.twine >= 5e-4f * largest && p.twine <= p.bar, "lobster_pot.twine", p.twine,
-                    "1/2000 of the largest size to the bar's diameter");
-    detail::require_share("lobster_pot.crushed", p.crushed);
-    detail::require_segments("lobster_pot.segments", p.segments, 6, 256);
-}
-
-}  // namespace INSONIFY_FLAGS
-
 namespace detail::inline INSONIFY_FLAGS {
 
 /// A point of the arch, from one foot (0) over the top (1/2) to the other (1): upright sides, then half an ellipse.
@@ -74,6 +52,24 @@ inline glm::dvec3 arch_point(const lobster_pot& p, double x, double t, double in
 }  // namespace detail::inline INSONIFY_FLAGS
 
 inline namespace INSONIFY_FLAGS {
+
+/// @throws invalid_input for a value outside its range
+inline void validate(const lobster_pot& p) {
+    detail::require_size("lobster_pot.length", p.length);
+    detail::require_size("lobster_pot.width", p.width);
+    detail::require_size("lobster_pot.height", p.height);
+    const float largest = (std::max)((std::max)(p.length, p.width), p.height);
+    const float least = (std::min)((std::min)(p.length, p.width), p.height);
+    detail::require(p.bar >= 1e-3f * largest && p.bar <= 0.125f * least, "lobster_pot.bar", p.bar,
+                    "1/1000 of the largest to 1/8 of the least size");
+    detail::require_range("lobster_pot.hoops", p.hoops, 2, 16, "2 to 16");
+    detail::require(p.mesh_size == 0 || (p.mesh_size >= largest / 64 && p.mesh_size <= largest),
+                    "lobster_pot.mesh_size", p.mesh_size, "0, or 1/64 to 1 of the largest size");
+    detail::require(p.twine >= 5e-4f * largest && p.twine <= p.bar, "lobster_pot.twine", p.twine,
+                    "1/2000 of the largest size to the bar's diameter");
+    detail::require_fraction("lobster_pot.crushed", p.crushed);
+    detail::require_segments("lobster_pot.segments", p.segments, 6, 256);
+}
 
 /// @throws invalid_input as `validate` does
 inline mesh to_mesh(const lobster_pot& p) {

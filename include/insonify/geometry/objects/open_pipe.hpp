@@ -40,7 +40,7 @@ inline void validate(const open_pipe& p) {
                     "at least 1/10000 of the larger size, below half the diameter");
     detail::require(p.flange == 0 || (p.flange >= 1e-4f * larger && p.flange <= p.diameter), "open_pipe.flange",
                     p.flange, "0, or from 1/10000 of the larger size to the diameter");
-    detail::require(p.broken >= 0 && p.broken <= 0.5f * p.length, "open_pipe.broken", p.broken, "0 to half the length");
+    detail::require_range("open_pipe.broken", p.broken, 0, 0.5f * p.length, "0 to half the length");
     detail::require_segments("open_pipe.segments", p.segments, 6, 8192);
 }
 

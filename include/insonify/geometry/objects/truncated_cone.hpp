@@ -43,7 +43,7 @@ inline void validate(const truncated_cone& c) {
                     c.boss_diameter, "0 to 0.8 top_diameter");
     detail::require(c.boss_height >= 0 && c.boss_height <= 0.25f * c.height, "truncated_cone.boss_height",
                     c.boss_height, "0 to a quarter of the height");
-    detail::require(c.lugs >= 0 && c.lugs <= 8, "truncated_cone.lugs", c.lugs, "0 to 8");
+    detail::require_range("truncated_cone.lugs", c.lugs, 0, 8, "0 to 8");
     detail::require_segments("truncated_cone.segments", c.segments, 6, 8192);
 }
 

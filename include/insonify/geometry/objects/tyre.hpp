@@ -31,10 +31,9 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input for a value outside its range
 inline void validate(const tyre& t) {
     detail::require_size("tyre.diameter", t.diameter);
-    detail::require(t.width >= 1e-3f * t.diameter && t.width <= 10 * t.diameter, "tyre.width", t.width,
-                    "1/1000 to 10 diameters");
-    detail::require(t.rim_diameter >= 1e-3f * t.diameter && t.rim_diameter <= 0.95f * t.diameter, "tyre.rim_diameter",
-                    t.rim_diameter, "0.001 to 0.95 diameters");
+    detail::require_range("tyre.width", t.width, 1e-3f * t.diameter, 10 * t.diameter, "1/1000 to 10 diameters");
+    detail::require_range("tyre.rim_diameter", t.rim_diameter, 1e-3f * t.diameter, 0.95f * t.diameter,
+                          "0.001 to 0.95 diameters");
     detail::require(t.wall >= 1e-4f * (std::max)(t.diameter, t.width) && t.wall <= 0.45f * t.width &&
                         t.wall <= 0.45f * (t.diameter - t.rim_diameter),
                     "tyre.wall", t.wall, "at least 1/10000 of the size, at most 0.45 of width and of the ring");

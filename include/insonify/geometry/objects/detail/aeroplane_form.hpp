@@ -9,7 +9,6 @@
 #include <insonify/geometry/objects/detail/solids.hpp>
 
 #include <algorithm>
-#include <cstdint>
 #include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN

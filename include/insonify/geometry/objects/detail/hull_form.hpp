@@ -1,4 +1,4 @@
-// The lines of a ship's hull, which plating, decks and fittings follow.
+// Lines of a ship's hull: the form that plating, decks and fittings follow.
 #pragma once
 
 #include <insonify/geometry/objects/detail/lattice_noise.hpp>
@@ -6,7 +6,6 @@
 #include <insonify/geometry/objects/hull_parameters.hpp>
 
 #include <algorithm>
-#include <cstdint>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -40,7 +39,7 @@ class hull_lines {
         const double fore = (std::max)(2 * u - 1, 0.0), aft = (std::max)(1 - 2 * u, 0.0);
         return depth_ + sheer_ * (fore * fore + 0.5 * aft * aft);
     }
-    /// The bulwark rises by half towards the bow, as a forecastle's does.
+    /// Top of the bulwark, which rises by half towards the bow as on a forecastle.
     double top(double u) const {
         const double fore = (std::max)((u - 0.8) / 0.2, 0.0);
         return deck_height(u) + bulwark_ * (1 + 0.5 * fore * (2 - fore));
@@ -76,7 +75,7 @@ class hull_lines {
         const glm::dvec3 plate = at(u, w, side, half_breadth(u, w) - 0.5 * plating_, height);
         return {plate.x, (share < 0 ? -share : share) * plate.y, plate.z};
     }
-    /// Up to which w the plating of a side stands.
+    /// Height, as w, up to which the plating of a side still stands.
     double standing(double u, double side) const {
         const double loss = 0.5 + 0.5 * noise({14 * u, 3 * side, 0.5}) + 0.35 * noise({45 * u, 5 * side, 1.5});
         const double ends = (std::max)((u - 0.82) / 0.18, (0.14 - u) / 0.14);

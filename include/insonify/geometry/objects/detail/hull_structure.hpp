@@ -15,10 +15,10 @@ namespace detail::inline INSONIFY_FLAGS {
 /// A stretch of a hull's length.
 struct stretch_of_hull {
     double from = 0, to = 1;
-    bool holds(double u) const { return u >= from && u <= to; }
+    bool contains(double u) const { return u >= from && u <= to; }
 };
 
-/// The shell between two stations, open above; where the ship broke its edge is ragged.
+/// The shell between two stations, open above, with ragged edges where the ship is broken.
 inline void append_plating(mesh& into, const hull_lines& lines, const stretch_of_hull& part, int segments) {
     const int stations = (std::max)(static_cast<int>(segments * (part.to - part.from)), 6);
     const int rows = (std::max)(segments / 6, 6);
@@ -97,7 +97,7 @@ inline void append_deck(mesh& into, const hull_lines& lines, const deck_plate& p
     append_loft(into, sections);
 }
 
-/// Four bars around a hatch, standing on the deck: what holds the covers.
+/// The coaming of a hatch: four bars around it that stand on the deck and carry the covers.
 inline void append_coaming(mesh& into, const hull_lines& lines, const deck_plate& opening, double height) {
     const double thick = 0.8 * lines.plating(), u[2] = {opening.from, opening.to};
     const auto corner = [&](double at, double share, double up) {

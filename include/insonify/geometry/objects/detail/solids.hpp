@@ -16,7 +16,6 @@
 #include <utility>
 #include <vector>
 
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -31,19 +30,13 @@ using section = std::vector<glm::dvec3>;
 inline void require_size(const char* name, float metres) {
     require(metres >= 1e-4f && metres <= 1e5f, name, metres, "0.0001 to 100000 metres");
 }
-/// A thickness that float positions resolve on an object of the given size.
+/// Refuses a thickness that float positions do not resolve on an object of the given size.
 inline void require_thickness(const char* name, float metres, float object_size) {
     require(metres >= 1e-4f * object_size && metres <= object_size, name, metres,
             "at least 1/10000 of the object's size, at most that size");
 }
-inline void require_range(const char* name, float value, float low, float high, const char* expected) {
-    require(value >= low && value <= high, name, value, expected);
-}
-inline void require_share(const char* name, float value) {
-    require(value >= 0 && value <= 1, name, value, "0 to 1");
-}
 inline void require_segments(const char* name, int value, int low, int high) {
-    require(value >= low && value <= high, name, value, to_text(low) + " to " + to_text(high));
+    require_range(name, value, low, high, to_text(low) + " to " + to_text(high));
 }
 
 /// Appends the surface through sections with equal numbers of corners, closed at both ends. The two ends are cut into
@@ -138,7 +131,7 @@ inline void append_bent_bar(mesh& into, std::span<const glm::dvec3> path, double
     append_loft(into, sections);
 }
 
-/// Appends a copy of all triangles of another mesh, moved.
+/// Appends a transformed mesh.
 inline void append(mesh& into, mesh part, const affine& map = {}) {
     part = transformed(std::move(part), map);
     const auto first = static_cast<std::uint32_t>(into.positions.size());
