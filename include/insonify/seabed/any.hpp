@@ -1,6 +1,6 @@
 // Type-erased seabed: holds any model, the library's or a user's.
 //
-// The model is immutable and shared by copies. There is one virtual call per row, none per point, and no list of types:
+// The model is immutable and shared by copies. Evaluation takes one virtual call per row. There is no list of types, so
 // models that a program does not use are not compiled.
 #pragma once
 
@@ -46,13 +46,13 @@ class any_sampler {
 
 namespace detail {
 
-/// One address per type.
+/// Its address identifies a type.
 template <class M>
 inline constexpr char tag_of = 0;
 
 struct model_interface {
     virtual ~model_interface() = default;
-    virtual const void* get(const void* tag) const = 0;  ///< the model if the tag is its type's, else null
+    virtual const void* get(const void* tag) const = 0;  ///< the model if `tag` identifies its type, else null
     virtual any_sampler prepare(const std::shared_ptr<const model_interface>& self) const = 0;
     virtual std::optional<type> only_type() const = 0;
     virtual std::vector<type_properties> legend() const = 0;
@@ -75,7 +75,7 @@ struct held_sampler final : sampler_interface {
     height_range range() const override { return range_of(sampler); }
 };
 
-/// @param owner  of what the sampler refers to
+/// @param owner  kept alive for as long as the sampler, which may refer to it
 template <typed_sampler S>
 any_sampler hold_sampler(S sampler, std::shared_ptr<const void> owner = nullptr) {
     return any_sampler(std::make_shared<const held_sampler<S>>(std::move(sampler), std::move(owner)));

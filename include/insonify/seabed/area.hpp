@@ -2,6 +2,7 @@
 #pragma once
 
 #include <insonify/core/image.hpp>
+#include <insonify/geometry/transform.hpp>
 #include <insonify/seabed/detail/noise.hpp>
 
 #include <variant>
@@ -59,16 +60,6 @@ using area = std::variant<patches, disc, band, polygon, stencil>;
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The value that a standard normal variable exceeds with probability p, absolute error < 4.5e-4.
-/// Milton Abramowitz, Irene A. Stegun. Handbook of Mathematical Functions. 1964 (eq. 26.2.23, by C. Hastings).
-inline double normal_exceeded(double p) {
-    const double tail = p < 0.5 ? p : 1 - p;
-    const double t = numeric::square_root(-2 * numeric::log(tail));
-    const double value =
-        t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
-    return p < 0.5 ? value : -value;
-}
-
 /// Distance from p to the segment from a to b, squared.
 inline double square_distance(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
     const glm::dvec2 ab = b - a, ap = p - a;
@@ -83,6 +74,7 @@ inline double distance_to_path(const glm::dvec2& p, const std::vector<glm::dvec2
     return numeric::square_root(square);
 }
 
+/// Signed distance of a position from the border of an area, metres, positive inside.
 inline double inside(const disc& d, const glm::dvec2& p) {
     const glm::dvec2 off = p - d.centre;
     return static_cast<double>(d.radius) - numeric::square_root(off.x * off.x + off.y * off.y);
@@ -107,9 +99,9 @@ inline double inside(const stencil& s, const glm::dvec2& p) {
         double across;
     };
     const auto axis = [](double u, int pixels) {
-        const double held = u > 0 ? (std::min)(u, static_cast<double>(pixels - 1)) : 0.0;
-        const int cell = (std::min)(static_cast<int>(held), (std::max)(pixels - 2, 0));
-        return place{cell, (std::min)(cell + 1, pixels - 1), held - cell};
+        const double clamped = u > 0 ? (std::min)(u, static_cast<double>(pixels - 1)) : 0.0;
+        const int cell = (std::min)(static_cast<int>(clamped), (std::max)(pixels - 2, 0));
+        return place{cell, (std::min)(cell + 1, pixels - 1), clamped - cell};
     };
     const auto [x, right, u] = axis((p.x - s.origin.x) / s.spacing, s.coverage.width());
     const auto [y, up, v] = axis((p.y - s.origin.y) / s.spacing, s.coverage.height());
@@ -121,23 +113,11 @@ inline double inside(const stencil& s, const glm::dvec2& p) {
 
 inline void validate(const disc& d) {
     require(d.radius >= 0 && d.radius < 1e9f, "disc.radius", d.radius, "metres, at least 0");
-    require(numeric::is_finite(d.centre.x), "disc.centre.x", d.centre.x, "a finite position");
-    require(numeric::is_finite(d.centre.y), "disc.centre.y", d.centre.y, "a finite position");
+    insonify::detail::require_finite("disc.centre", d.centre);
 }
-inline void validate_points(const std::vector<glm::dvec2>& points, const char* name, std::size_t least) {
-    require(points.size() >= least, std::string(name) + ".size()", points.size(), "more points");
-    for (const glm::dvec2& p : points) {
-        require(numeric::is_finite(p.x), name, p.x, "finite positions");
-        require(numeric::is_finite(p.y), name, p.y, "finite positions");
-    }
-}
-inline void require_position(const char* name, const glm::dvec2& p) {
-    require(p.x >= -1e9 && p.x <= 1e9, name, p.x, "within 1e9 metres");
-    require(p.y >= -1e9 && p.y <= 1e9, name, p.y, "within 1e9 metres");
-}
-inline void require_metres(const char* name, float value, bool positive) {
-    require((positive ? value > 0 : value >= 0) && value < 1e6f, name, value,
-            positive ? "metres above 0" : "metres, at least 0");
+inline void validate_points(const std::vector<glm::dvec2>& points, const char* name, std::size_t min_count) {
+    require(points.size() >= min_count, std::string(name) + ".size()", points.size(), "more points");
+    for (const glm::dvec2& p : points) insonify::detail::require_finite(name, p);
 }
 inline void validate(const band& b) {
     validate_points(b.path, "band.path", 1);
@@ -148,11 +128,9 @@ inline void validate(const polygon& p) {
 }
 inline void validate(const stencil& s) {
     require(!s.coverage.empty(), "stencil.coverage.size()", s.coverage.size(), "at least 1");
-    require(s.spacing > 0 && s.spacing < 1e6, "stencil.spacing", s.spacing, "metres above 0");
-    require(s.origin.x >= -1e9 && s.origin.x <= 1e9, "stencil.origin.x", s.origin.x, "within 1e9 metres");
-    require(s.origin.y >= -1e9 && s.origin.y <= 1e9, "stencil.origin.y", s.origin.y, "within 1e9 metres");
-    for (const float value : s.coverage.pixels())
-        require(numeric::is_finite(value), "stencil.coverage", value, "finite numbers");
+    require_positive_metres("stencil.spacing", s.spacing);
+    require_position("stencil.origin", s.origin);
+    for (const float value : s.coverage.pixels()) insonify::detail::require_finite("stencil.coverage", value);
 }
 
 /// Evaluates an `area` along rows.
@@ -164,13 +142,13 @@ class outline {
     outline(area where, float border, float ragged, std::uint64_t seed, std::uint32_t layer)
         : shape_(std::move(where)), noise_(roughness_of(shape_, border, ragged), seed, stream::mask, layer) {
         if (const auto* p = std::get_if<patches>(&shape_)) {
-            require(p->coverage >= 0 && p->coverage <= 1, "patches.coverage", p->coverage, "0 to 1");
+            require_fraction("patches.coverage", p->coverage);
             // Divided by its rms slope, the noise approximates the distance to the border.
             scale_ = static_cast<float>(1 / noise_.rms_slope());
             offset_ = p->coverage <= 0 ? -never
                       : p->coverage >= 1
                           ? never
-                          : -scale_ * static_cast<float>(normal_exceeded(static_cast<double>(p->coverage)));
+                          : scale_ * static_cast<float>(numeric::normal_quantile(static_cast<double>(p->coverage)));
         }
         std::visit(
             [](const auto& shape) {
@@ -185,22 +163,21 @@ class outline {
         noise_.add(part, values);
         std::visit(
             [&](const auto& shape) {
-                for (std::size_t i = 0; i < part.count; ++i) {
+                for (std::size_t i = 0; i < part.count; ++i)
                     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(shape)>, patches>)
                         values[i] = offset_ + scale_ * values[i];
                     else
                         values[i] += static_cast<float>(inside(shape, {part.x[i], part.y}));
-                }
             },
             shape_);
     }
 
   private:
-    static constexpr float never = 1e30f;  // above every value of the noise
+    static constexpr float never = 1e30f;  ///< threshold above every value of the noise
 
     static roughness roughness_of(const area& where, float border, float ragged) {
         require(border >= 1e-3f && border < 1e6f, "layer.border", border, "metres from 0.001");
-        require(ragged >= 0 && ragged < 1e6f, "layer.ragged", ragged, "metres, at least 0");
+        require_metres("layer.ragged", ragged);
         if (const auto* p = std::get_if<patches>(&where)) {
             require(p->size >= border && p->size < 1e6f, "patches.size", p->size, "metres, at least layer.border");
             return {.rms = 1, .longest = p->size, .shortest = border, .exponent = 3.6f};

@@ -7,14 +7,14 @@
 // Source: Esri. ASCII Raster Format (ArcGIS documentation, "Esri ASCII raster format").
 #pragma once
 
+#include <insonify/geometry/bounds.hpp>
+#include <insonify/seabed/detail/survey_reader.hpp>
 #include <insonify/seabed/heightfield.hpp>
 
 #include <algorithm>
-#include <charconv>
+#include <cstdint>
 #include <limits>
-#include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -25,74 +25,8 @@ namespace seabed {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Splits a text into words and numbers; errors name the line.
-class survey_reader {
-  public:
-    survey_reader(std::string_view text, std::string_view name) : text_(text), name_(name) {
-        if (text_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;  // byte order mark
-    }
-
-    /// The next word, on this line or a later one; empty at the end. Commas and semicolons separate words like blanks.
-    std::string_view word() {
-        for (; at_ < text_.size() && is_blank(text_[at_]); ++at_) line_ += ends_line(at_) ? 1u : 0u;
-        return word_here();
-    }
-    /// The next word of this line; empty at its end.
-    std::string_view word_of_line() {
-        while (at_ < text_.size() && is_blank(text_[at_]) && !is_line_break(text_[at_])) ++at_;
-        return word_here();
-    }
-    std::string_view peek() {
-        const std::size_t at = at_, line = line_;
-        const std::string_view next = word();
-        at_ = at, line_ = line;
-        return next;
-    }
-    void skip_line() {
-        while (at_ < text_.size() && !is_line_break(text_[at_])) ++at_;
-    }
-
-    /// @param what  for the error
-    double number(const char* what) { return number(word(), what); }
-    double number(std::string_view digits, const char* what) const {
-        if (digits.empty())
-            fail((at_ < text_.size() ? "the line ends before " : "the text ends before ") + std::string(what));
-        double value = 0;
-        if (insonify::detail::parse_number(digits, value) != insonify::detail::number_text::fine)
-            fail(insonify::detail::quoted(digits) + " is not a number, expected " + what);
-        return value;
-    }
-    double finite(const char* what) {
-        const double value = number(what);
-        if (!numeric::is_finite(value)) fail(std::string(what) + " is not finite");
-        return value;
-    }
-
-    std::size_t left() const { return text_.size() - at_; }
-
-    [[noreturn]] void fail(const std::string& reason) const {
-        insonify::detail::raise(io_error(std::string(name_) + ":" + insonify::detail::to_text(line_) + ": " + reason));
-    }
-
-  private:
-    std::string_view word_here() {
-        const std::size_t begin = at_;
-        while (at_ < text_.size() && !is_blank(text_[at_])) ++at_;
-        return text_.substr(begin, at_ - begin);
-    }
-    static bool is_line_break(char c) { return c == '\n' || c == '\r'; }
-    /// LF, CR LF and CR each end one line.
-    bool ends_line(std::size_t at) const {
-        return text_[at] == '\n' || (text_[at] == '\r' && text_.substr(at + 1, 1) != "\n");
-    }
-    static bool is_blank(char c) { return (c >= '\t' && c <= '\r') || c == ' ' || c == ',' || c == ';'; }
-
-    std::string_view text_, name_;
-    std::size_t at_ = 0, line_ = 1;
-};
-
 /// A height within 1000 km; NaN for anything else, such as codes for missing data.
-inline float height_or_nothing(double metres) {
+inline float height_or_nan(double metres) {
     return metres > -1e6 && metres < 1e6 ? static_cast<float>(metres) : (std::numeric_limits<float>::quiet_NaN)();
 }
 
@@ -100,9 +34,108 @@ inline void require_position(const survey_reader& text, double x, double y) {
     if (!(x >= -1e9 && x <= 1e9 && y >= -1e9 && y <= 1e9)) text.fail("a position is not within 1e9 metres");
 }
 
-inline bool same_word(std::string_view a, std::string_view b) {
-    const auto low = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return low(x) == low(y); });
+/// Header of an Esri ASCII grid.
+struct esri_header {
+    double columns = 0, rows = 0, cell = 0, no_data = -9999;
+    glm::dvec2 origin{0, 0};  ///< centre of the lower left cell
+};
+
+/// Reads a header up to the first height.
+/// @throws io_error for an unknown keyword, or a value that is missing or out of range
+inline esri_header read_esri_header(survey_reader& in) {
+    esri_header h;
+    bool has_x = false, has_y = false, corner_x = false, corner_y = false;
+    for (;;) {
+        const std::string_view key = in.peek();
+        const bool is_key = !key.empty() && ((key[0] >= 'a' && key[0] <= 'z') || (key[0] >= 'A' && key[0] <= 'Z')) &&
+                            !same_word(key, "nan");
+        if (!is_key) break;
+        in.word();
+        const auto is = [&](std::string_view word) { return same_word(key, word); };
+        if (is("ncols"))
+            h.columns = in.finite("ncols");
+        else if (is("nrows"))
+            h.rows = in.finite("nrows");
+        else if (is("cellsize"))
+            h.cell = in.finite("cellsize");
+        else if (is("xllcorner") || is("xllcenter"))
+            h.origin.x = in.finite("xllcorner"), has_x = true, corner_x = is("xllcorner");
+        else if (is("yllcorner") || is("yllcenter"))
+            h.origin.y = in.finite("yllcorner"), has_y = true, corner_y = is("yllcorner");
+        else if (is("nodata_value"))
+            h.no_data = in.number("nodata_value");
+        else
+            in.fail(insonify::detail::quoted(key) + " is not a keyword of an Esri grid's header, such as ncols");
+    }
+    const auto is_whole = [](double n) {
+        return n >= 2 && n <= (1 << 24) && n == static_cast<double>(static_cast<int>(n));
+    };
+    if (!is_whole(h.columns)) in.fail("ncols is missing or not an integer from 2 to 2^24");
+    if (!is_whole(h.rows)) in.fail("nrows is missing or not an integer from 2 to 2^24");
+    if (!has_x || !has_y) in.fail("xllcorner or yllcorner is missing");
+    if (!(h.cell > 0 && h.cell < 1e6)) in.fail("cellsize is missing or not above 0");
+    h.origin += glm::dvec2(corner_x ? 0.5 * h.cell : 0, corner_y ? 0.5 * h.cell : 0);
+    require_position(in, h.origin.x, h.origin.y);
+    return h;
+}
+
+/// Soundings on a grid, and the vertices that they reach.
+struct grid_soundings {
+    struct sounding {
+        std::int64_t column, row;  ///< of the nearest vertex
+        double height;
+    };
+    std::vector<sounding> all;
+    std::int64_t left = (std::numeric_limits<std::int64_t>::max)(), low = left, right = -left, high = -left;
+    insonify::detail::ground_rect extent;  ///< of the positions
+
+    void add(const glm::dvec2& at, double height, double spacing) {
+        extent.include(at);
+        const std::int64_t column = numeric::floor_to_int(at.x / spacing + 0.5),
+                           row = numeric::floor_to_int(at.y / spacing + 0.5);
+        left = (std::min)(left, column), right = (std::max)(right, column);
+        low = (std::min)(low, row), high = (std::max)(high, row);
+        all.push_back({column, row, height});
+    }
+    std::int64_t width() const { return (std::max)(right - left + 1, std::int64_t{2}); }
+    std::int64_t height() const { return (std::max)(high - low + 1, std::int64_t{2}); }
+};
+
+inline grid_soundings read_soundings(survey_reader& in, double spacing, float scale) {
+    grid_soundings found;
+    for (std::string_view first; !(first = in.word()).empty(); in.skip_line()) {
+        const bool is_number =
+            (first[0] >= '0' && first[0] <= '9') || first[0] == '-' || first[0] == '+' || first[0] == '.';
+        if (!is_number) {
+            // Its rows of heights would be taken for positions.
+            if (same_word(first, "ncols")) in.fail("this is an Esri ASCII grid: parse_esri_grid reads it");
+            continue;
+        }
+        const double x = in.number(first, "an x"), y = in.number(in.word_of_line(), "a y"),
+                     z = in.number(in.word_of_line(), "a z");
+        require_position(in, x, y);
+        found.add({x, y}, static_cast<double>(scale) * z, spacing);
+    }
+    return found;
+}
+
+/// Refuses soundings that make no grid of a useful size.
+inline void require_extent(const survey_reader& in, const grid_soundings& s, double spacing) {
+    using insonify::detail::to_text;
+    if (s.all.empty()) in.fail("there are no soundings");
+    const double vertices = static_cast<double>(s.width()) * static_cast<double>(s.height());
+    const auto count = static_cast<double>(s.all.size());
+    // Bounds the memory that two distant soundings may cost.
+    if (vertices > (std::min)(1024 * count, 67108864.0))
+        in.fail("the soundings are too far apart, more than 1024 vertices for each or 2^26: take a larger spacing");
+    // Longitudes and latitudes in degrees lie within a few spacings.
+    const glm::dvec2 span = s.extent.upper - s.extent.lower;
+    const bool is_point = span.x < spacing && span.y < spacing;
+    const bool is_crowded = s.width() <= 4 && s.height() <= 4 && count > 16 * vertices;
+    if (is_point || is_crowded)
+        in.fail("all " + to_text(s.all.size()) + " soundings lie within " + to_text(static_cast<float>(span.x)) +
+                " x " + to_text(static_cast<float>(span.y)) + " metres, at a spacing of " + to_text(spacing) +
+                ": take a smaller spacing; positions in degrees have to be projected to metres first");
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -110,115 +143,55 @@ inline bool same_word(std::string_view a, std::string_view b) {
 inline namespace INSONIFY_FLAGS {
 
 /// Reads an Esri ASCII grid: ncols, nrows, xllcorner or xllcenter, yllcorner or yllcenter, cellsize, maybe
-/// nodata_value, then the heights row by row from the north. Vertices stand at the centres of its cells.
+/// nodata_value, then the heights row by row from the north. Vertices stand at the centres of its cells. Positions and
+/// cellsize are metres: project grids in degrees first, as to UTM.
 /// @param scale  metres up per unit of the file; -1 for depths in metres
 /// @param name   of the text, for errors
 /// @throws io_error for a text that isn't such a grid, saying which line and why
 inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::string_view name = "grid") {
     detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");
     detail::survey_reader in(text, name);
-    double columns = 0, rows = 0, cell = 0, x = 0, y = 0, no_data = -9999;
-    bool has_x = false, has_y = false, corner_x = false, corner_y = false;
-    for (;;) {
-        const std::string_view key = in.peek();
-        const bool is_key = !key.empty() && ((key[0] >= 'a' && key[0] <= 'z') || (key[0] >= 'A' && key[0] <= 'Z')) &&
-                            !detail::same_word(key, "nan");
-        if (!is_key) break;
-        in.word();
-        const auto is = [&](std::string_view word) { return detail::same_word(key, word); };
-        if (is("ncols"))
-            columns = in.finite("ncols");
-        else if (is("nrows"))
-            rows = in.finite("nrows");
-        else if (is("cellsize"))
-            cell = in.finite("cellsize");
-        else if (is("xllcorner") || is("xllcenter"))
-            x = in.finite("xllcorner"), has_x = true, corner_x = is("xllcorner");
-        else if (is("yllcorner") || is("yllcenter"))
-            y = in.finite("yllcorner"), has_y = true, corner_y = is("yllcorner");
-        else if (is("nodata_value"))
-            no_data = in.number("nodata_value");
-        else
-            in.fail("'" + std::string(key.substr(0, 40)) +
-                    "' is not a keyword of an Esri grid's header, such as ncols");
-    }
-    const auto whole = [](double n) {
-        return n >= 2 && n <= (1 << 24) && n == static_cast<double>(static_cast<int>(n));
-    };
-    if (!whole(columns)) in.fail("ncols is missing or not an integer from 2 to 2^24");
-    if (!whole(rows)) in.fail("nrows is missing or not an integer from 2 to 2^24");
-    if (!has_x || !has_y) in.fail("xllcorner or yllcorner is missing");
-    if (!(cell > 0 && cell < 1e6)) in.fail("cellsize is missing or not above 0");
+    const detail::esri_header header = detail::read_esri_header(in);
     // A height takes two characters at least: refuse headers of grids larger than the text before allocating.
-    if (columns * rows > static_cast<double>(in.left() / 2 + 1))
+    if (header.columns * header.rows > static_cast<double>(in.left() / 2 + 1))
         in.fail("the text is too short for ncols x nrows heights");
-    const glm::dvec2 origin(x + (corner_x ? 0.5 * cell : 0), y + (corner_y ? 0.5 * cell : 0));
-    detail::require_position(in, origin.x, origin.y);
-
-    heightfield field{
-        .heights = image<float>(static_cast<int>(columns), static_cast<int>(rows)), .origin = origin, .spacing = cell};
+    heightfield field{.heights = image<float>(static_cast<int>(header.columns), static_cast<int>(header.rows)),
+                      .origin = header.origin,
+                      .spacing = header.cell};
     for (int j = field.heights.height() - 1; j >= 0; --j)
         for (float& h : field.heights.row(j)) {
             const double value = in.number("a height");
-            h = value == no_data ? (std::numeric_limits<float>::quiet_NaN)()
-                                 : detail::height_or_nothing(static_cast<double>(scale) * value);
+            h = value == header.no_data ? (std::numeric_limits<float>::quiet_NaN)()
+                                        : detail::height_or_nan(static_cast<double>(scale) * value);
         }
     if (!in.word().empty()) in.fail("the text goes on after ncols x nrows heights");
     return field;
 }
 
 /// Reads soundings, an `x y z` on each line, onto a grid: each vertex has the mean of the soundings that are nearest to
-/// it, or NaN if there is none. Lines end with LF, CR LF or CR. Lines that do not begin with a number are skipped, and
-/// so is the rest of a line after z.
+/// it, or NaN if there is none. x and y are metres: project longitudes and latitudes first, as to UTM. Lines end with
+/// LF, CR LF or CR. Lines that do not begin with a number are skipped, and so is the rest of a line after z.
 /// @param spacing  metres between vertices, > 0; vertices are multiples of it
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors
-/// @throws io_error for a text without soundings, an Esri grid, a line of fewer than three numbers, or soundings so far
-/// apart that there are more than 1024 vertices for each, or more than 2^26
+/// @throws io_error for a text without soundings, an Esri grid, a line of fewer than three numbers, soundings that span
+///         less than a spacing or crowd at a few vertices, as those in degrees do, or soundings so far apart that there
+///         are more than 1024 vertices for each, or more than 2^26
 inline heightfield parse_xyz(std::string_view text, double spacing, float scale = 1, std::string_view name = "xyz") {
-    detail::require(spacing > 0 && spacing < 1e6, "spacing", spacing, "metres above 0");
+    detail::require_positive_metres("spacing", spacing);
     detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");
     detail::survey_reader in(text, name);
-    struct sounding {
-        std::int64_t column, row;
-        double height;
-    };
-    std::vector<sounding> soundings;
-    std::int64_t left = (std::numeric_limits<std::int64_t>::max)(), low = left, right = -left, high = -left;
-    for (std::string_view first; !(first = in.word()).empty(); in.skip_line()) {
-        const bool is_number =
-            (first[0] >= '0' && first[0] <= '9') || first[0] == '-' || first[0] == '+' || first[0] == '.';
-        if (!is_number) {
-            // Its rows of heights would be taken for positions.
-            if (detail::same_word(first, "ncols")) in.fail("this is an Esri ASCII grid: parse_esri_grid reads it");
-            continue;
-        }
-        const double x = in.number(first, "an x"), y = in.number(in.word_of_line(), "a y"),
-                     z = in.number(in.word_of_line(), "a z");
-        detail::require_position(in, x, y);
-        const std::int64_t column = numeric::floor_to_int(x / spacing + 0.5),
-                           row = numeric::floor_to_int(y / spacing + 0.5);
-        left = (std::min)(left, column), right = (std::max)(right, column);
-        low = (std::min)(low, row), high = (std::max)(high, row);
-        soundings.push_back({column, row, static_cast<double>(scale) * z});
-    }
-    if (soundings.empty()) in.fail("there are no soundings");
-    const std::int64_t width = (std::max)(right - left + 1, std::int64_t{2}),
-                       height = (std::max)(high - low + 1, std::int64_t{2});
-    // Bounds the memory that two distant soundings may cost.
-    const double max_vertices = (std::min)(1024.0 * static_cast<double>(soundings.size()), 67108864.0);
-    if (static_cast<double>(width) * static_cast<double>(height) > max_vertices)
-        in.fail("the soundings are too far apart, more than 1024 vertices for each or 2^26: take a larger spacing");
-
-    heightfield field{.heights = image<float>(static_cast<int>(width), static_cast<int>(height)),
-                      .origin = {spacing * static_cast<double>(left), spacing * static_cast<double>(low)},
-                      .spacing = spacing};
+    const detail::grid_soundings soundings = detail::read_soundings(in, spacing, scale);
+    detail::require_extent(in, soundings, spacing);
+    heightfield field{
+        .heights = image<float>(static_cast<int>(soundings.width()), static_cast<int>(soundings.height())),
+        .origin = {spacing * static_cast<double>(soundings.left), spacing * static_cast<double>(soundings.low)},
+        .spacing = spacing};
     image<double> sums(field.heights.width(), field.heights.height(), 0.0);
     image<std::uint32_t> counts(field.heights.width(), field.heights.height(), 0u);
-    for (const sounding& s : soundings) {
-        const float known = detail::height_or_nothing(s.height);
-        if (!numeric::is_finite(known)) continue;
-        const int i = static_cast<int>(s.column - left), j = static_cast<int>(s.row - low);
+    for (const auto& s : soundings.all) {
+        if (!numeric::is_finite(detail::height_or_nan(s.height))) continue;
+        const int i = static_cast<int>(s.column - soundings.left), j = static_cast<int>(s.row - soundings.low);
         sums(i, j) += s.height;
         ++counts(i, j);
     }
@@ -230,7 +203,7 @@ inline heightfield parse_xyz(std::string_view text, double spacing, float scale 
 
 /// Closes gaps from their edges inwards: in each step, a missing vertex becomes the mean of those of its eight
 /// neighbours that were known before.
-/// @param reach  number of steps: vertices that a gap is closed by from each side; the rest stays NaN
+/// @param reach  number of steps: how many vertices a gap is closed by from each side; the rest stays NaN
 /// @throws invalid_input as `validate`, and for a reach below 0
 inline heightfield fill_gaps(heightfield field, int reach = 1 << 30) {
     validate(field);

@@ -21,9 +21,9 @@ struct blend {
 
     /// @throws invalid_input for parameters out of their range
     INSONIFY_TAGGED mixed_sampler prepare() const {
-        detail::require(coverage >= 0 && coverage <= 1, "blend.coverage", coverage, "0 to 1");
-        detail::require(patch > 0 && patch < 1e6f, "blend.patch", patch, "metres above 0");
-        detail::require(border >= 1e-3f && border <= patch, "blend.border", border, "metres from 0.001 to blend.patch");
+        detail::require_fraction("blend.coverage", coverage);
+        detail::require_positive_metres("blend.patch", patch);
+        detail::require_range("blend.border", border, 1e-3f, patch, "metres from 0.001 to blend.patch");
         const layer top{.bottom = first, .where = patches{coverage, patch}, .border = border};
         return mixed{.base = second, .layers = {top}, .seed = seed}.prepare();
     }

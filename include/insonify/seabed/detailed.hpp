@@ -51,8 +51,8 @@ class detailed_sampler {
         for (std::size_t i = 0; i < types.size(); ++i) types[i] = field_->type_at(line.x(i), line.y);
     }
 
-    /// Catmull-Rom's negative weights add up to 1/8 at most: rows overshoot the range by 1/8 at either end, and columns
-    /// of rows by 1/8 of the resulting five quarters more.
+    /// Catmull-Rom's negative weights add up to 1/8 at most: interpolated rows overshoot the range by 1/8 at either
+    /// end, and columns overshoot the resulting 5/4 of the range by 1/8 again.
     height_range range() const {
         const height_range field = field_->prepare().range();
         const double over = 0.2813 * (field.highest - field.lowest) + surface_.upper_bound();
@@ -65,12 +65,12 @@ class detailed_sampler {
         const image<float>& h = field_->heights;
         const detail::grid_coordinate u((x - field_->origin.x) / field_->spacing, h.width() - 1),
             v((y - field_->origin.y) / field_->spacing, h.height() - 1);
-        const auto held = [](int i, int size) { return i < 0 ? 0 : i < size ? i : size - 1; };
+        const auto clamped = [](int i, int size) { return i < 0 ? 0 : i < size ? i : size - 1; };
         float column[4];
         for (int j = 0; j < 4; ++j) {
-            const int row = held(v.cell - 1 + j, h.height());
+            const int row = clamped(v.cell - 1 + j, h.height());
             float p[4];
-            for (int i = 0; i < 4; ++i) p[i] = h(held(u.cell - 1 + i, h.width()), row);
+            for (int i = 0; i < 4; ++i) p[i] = h(clamped(u.cell - 1 + i, h.width()), row);
             detail::catmull_rom(column[j], p, static_cast<float>(u.across));
         }
         float height;

@@ -1,6 +1,7 @@
 // Edits of a seabed: hills, furrows, ramps, deposits; moat.hpp has scour. sculpt.hpp applies them.
 #pragma once
 
+#include <insonify/geometry/bounds.hpp>
 #include <insonify/seabed/area.hpp>
 #include <insonify/seabed/moat.hpp>
 
@@ -73,19 +74,11 @@ inline float length(double x, double y) {
     return static_cast<float>(numeric::square_root(x * x + y * y));
 }
 
-/// Bounding rectangle of the ground that an edit changes, metres.
-struct extent {
-    glm::dvec2 low, high;
-};
-inline extent extent_around(const glm::dvec2& centre, double reach) {
-    return {centre - glm::dvec2(reach), centre + glm::dvec2(reach)};
-}
-inline extent extent_around(const std::vector<glm::dvec2>& points, double reach) {
-    extent all = extent_around(points.front(), reach);
-    for (const glm::dvec2& p : points) {
-        all.low = {(std::min)(all.low.x, p.x - reach), (std::min)(all.low.y, p.y - reach)};
-        all.high = {(std::max)(all.high.x, p.x + reach), (std::max)(all.high.y, p.y + reach)};
-    }
+using insonify::detail::ground_rect;
+
+inline ground_rect rect_around(std::span<const glm::dvec2> points, double reach) {
+    ground_rect all;
+    for (const glm::dvec2& p : points) all.include(p, reach);
     return all;
 }
 
@@ -93,53 +86,55 @@ inline void require_height(const char* name, float value) {
     require(value > -1e6f && value < 1e6f, name, value, "a finite height");
 }
 
-inline extent extent_of(const raise& e) {
+/// Bounding rectangle of the ground that an edit changes.
+/// @throws invalid_input for a parameter out of its range
+inline ground_rect ground_of(const raise& e) {
     require_position("raise.centre", e.centre);
-    require_metres("raise.radius", e.radius, true);
+    require_positive_metres("raise.radius", e.radius);
     require_height("raise.height", e.height);
-    return extent_around(e.centre, static_cast<double>(e.radius));
+    return rect_around({&e.centre, 1}, static_cast<double>(e.radius));
 }
-inline extent extent_of(const flatten& e) {
+inline ground_rect ground_of(const flatten& e) {
     require_position("flatten.centre", e.centre);
-    require_metres("flatten.radius", e.radius, true);
+    require_positive_metres("flatten.radius", e.radius);
     require_height("flatten.level", e.level);
-    return extent_around(e.centre, static_cast<double>(e.radius));
+    return rect_around({&e.centre, 1}, static_cast<double>(e.radius));
 }
-inline extent extent_of(const smooth& e) {
+inline ground_rect ground_of(const smooth& e) {
     require_position("smooth.centre", e.centre);
-    require_metres("smooth.radius", e.radius, true);
+    require_positive_metres("smooth.radius", e.radius);
     require(e.length >= 1e-3f && e.length < 1e6f, "smooth.length", e.length, "metres from 0.001");
-    return extent_around(e.centre, static_cast<double>(e.radius));
+    return rect_around({&e.centre, 1}, static_cast<double>(e.radius));
 }
-inline extent extent_of(const ramp& e) {
+inline ground_rect ground_of(const ramp& e) {
     require_position("ramp.from", e.from);
     require_position("ramp.to", e.to);
-    require_metres("ramp.width", e.width, true);
+    require_positive_metres("ramp.width", e.width);
     require_height("ramp.from_height", e.from_height);
     require_height("ramp.to_height", e.to_height);
     require(e.from != e.to, "ramp.to", e.to.x, "another point than ramp.from");
-    return extent_around(std::vector<glm::dvec2>{e.from, e.to}, static_cast<double>(e.width));
+    return rect_around(std::array{e.from, e.to}, static_cast<double>(e.width));
 }
-inline extent extent_of(const stamp& e) {
+inline ground_rect ground_of(const stamp& e) {
     require(!e.path.empty(), "stamp.path.size()", e.path.size(), "at least 1");
     for (const glm::dvec2& p : e.path) require_position("stamp.path", p);
-    require_metres("stamp.radius", e.radius, true);
+    require_positive_metres("stamp.radius", e.radius);
     require_height("stamp.height", e.height);
-    require_metres("stamp.every", e.every, false);
-    return extent_around(e.path, static_cast<double>(e.radius));
+    require_metres("stamp.every", e.every);
+    return rect_around(e.path, static_cast<double>(e.radius));
 }
-inline extent extent_of(const heap& e) {
+inline ground_rect ground_of(const heap& e) {
     require_position("heap.centre", e.centre);
-    require_metres("heap.radius", e.radius, false);
+    require_metres("heap.radius", e.radius);
     require_height("heap.level", e.level);
     require(e.slope >= 1e-3f && e.slope < 1e6f, "heap.slope", e.slope, "a slope from 0.001");
     // The ground may be at any height; the search ends a hundred metres below the top.
-    return extent_around(e.centre, static_cast<double>(e.radius) + 100 / static_cast<double>(e.slope));
+    return rect_around({&e.centre, 1}, static_cast<double>(e.radius) + 100 / static_cast<double>(e.slope));
 }
 
-inline extent extent_of(const moat& e) {
+inline ground_rect ground_of(const moat& e) {
     validate(e);
-    return extent_around(e.outline, moat_reach(e));
+    return rect_around(e.outline, moat_reach(e));
 }
 
 /// The height at a position after an edit.

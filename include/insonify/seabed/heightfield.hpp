@@ -24,9 +24,9 @@ struct grid_coordinate {
     int cell;
     double across;
     grid_coordinate(double c, int cells) {
-        const double held = c > 0 ? (std::min)(c, static_cast<double>(cells)) : 0.0;
-        cell = (std::min)(static_cast<int>(held), cells - 1);
-        across = held - cell;
+        const double clamped = c > 0 ? (std::min)(c, static_cast<double>(cells)) : 0.0;
+        cell = (std::min)(static_cast<int>(clamped), cells - 1);
+        across = clamped - cell;
     }
 };
 
@@ -69,10 +69,10 @@ struct heightfield {
     glm::dvec2 origin{0.0, 0.0};  ///< world position of vertex (0, 0), metres
     double spacing = 1;           ///< metres between vertices, > 0
     type fallback = type::sand;
-    /// Properties of users' own labels; those of the library's are in its registry.
+    /// Properties of users' labels; those of the library are in its registry.
     std::vector<type_properties> own_types{};
 
-    /// Height of the drawn surface at a world position, metres; it and the next two expect a valid heightfield.
+    /// Height of the drawn surface at a world position, metres. @pre the heightfield is valid, here and below
     INSONIFY_MEMBER float height_at(double x, double y) const { return static_cast<float>(facet_at(x, y).height); }
 
     /// Unit normal of the triangle at a world position; outside, that of the nearest one. NaN where there is no data.
@@ -113,9 +113,8 @@ inline void validate(const heightfield& h) {
                     h.types.width(), "that of the heights, or no types at all");
     detail::require(h.types.empty() || h.types.height() == h.heights.height(), "heightfield.types.height()",
                     h.types.height(), "that of the heights, or no types at all");
-    detail::require(h.origin.x >= -1e9 && h.origin.x <= 1e9, "heightfield.origin.x", h.origin.x, "within 1e9 metres");
-    detail::require(h.origin.y >= -1e9 && h.origin.y <= 1e9, "heightfield.origin.y", h.origin.y, "within 1e9 metres");
-    detail::require(h.spacing > 0 && h.spacing < 1e6, "heightfield.spacing", h.spacing, "metres above 0");
+    detail::require_position("heightfield.origin", h.origin);
+    detail::require_positive_metres("heightfield.spacing", h.spacing);
 }
 
 /// Evaluates a `heightfield` between its vertices.

@@ -36,10 +36,10 @@ inline void validate(const moat& m) {
     validate_points(m.outline, "moat.outline", 3);
     require(m.outline.size() <= 4096, "moat.outline.size()", m.outline.size(), "at most 4096");
     for (const glm::dvec2& p : m.outline) require_position("moat.outline", p);
-    require_metres("moat.depth", m.depth, false);
-    require_metres("moat.width", m.width, true);
-    require_metres("moat.mound", m.mound, false);
-    require_metres("moat.tail", m.tail, false);
+    require_metres("moat.depth", m.depth);
+    require_positive_metres("moat.width", m.width);
+    require_metres("moat.mound", m.mound);
+    require_metres("moat.tail", m.tail);
     require(numeric::is_finite(m.current), "moat.current", m.current, "a finite angle");
 }
 

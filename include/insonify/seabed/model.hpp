@@ -23,9 +23,12 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <type_traits>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
+
+#include <glm/vec2.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -39,9 +42,9 @@ struct scanline {
     double y = 0;
     double origin = 0;       ///< x of sample 0 of the whole row
     double spacing = 1;      ///< >= 0
-    std::int64_t first = 0;  ///< which sample of the whole row is sample 0 here; any, below 0 too
-    /// Metres between the vertices of the grid that the row is part of: relief that it can't carry fades out (see
-    /// `carried`). 0: nothing does.
+    std::int64_t first = 0;  ///< index in the whole row of sample 0 here; may be negative
+    /// Metres between the vertices of the grid that the row belongs to: relief that the grid can't carry fades out (see
+    /// `carried`). 0: no relief fades.
     double grid_spacing = 0;
 
     INSONIFY_MEMBER double x(std::size_t i) const { return origin + spacing * static_cast<double>(number(i)); }
@@ -53,8 +56,8 @@ struct scanline {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The share in [0, 1] of a wave's amplitude that a grid keeps: nothing of two samples a wave or fewer, which would
-/// show up as another wave, and all from four on. Both in the same unit; a spacing of 0 keeps everything.
+/// Fraction in [0, 1] of a wave's amplitude that a grid carries: 0 up to two samples per wave, which would alias, and 1
+/// from four on. Both in the same unit; a spacing of 0 carries all.
 ///
 /// Alan Norton, Alyn P. Rockwood, Philip T. Skolmoski. Clamping: A Method of Antialiasing Textured Surfaces by
 /// Bandwidth Limiting in Object Space. SIGGRAPH, 1982.
@@ -65,14 +68,14 @@ constexpr float carried(double wavelength, double spacing) {
 
 }  // namespace INSONIFY_FLAGS
 
-/// Heights that a seabed never leaves, metres above the datum; nothing at all where lowest > highest. Rounding has to
-/// be included: the parts of the bottom that may cast a shadow into a picture are found by it.
+/// Bounds of a seabed's heights, metres above the datum, rounding included; empty if lowest > highest. They decide how
+/// far the bottom is sampled for shadows.
 struct height_range {
     double lowest = std::numeric_limits<double>::infinity();
     double highest = -std::numeric_limits<double>::infinity();
 
     INSONIFY_MEMBER bool empty() const { return !(lowest <= highest); }
-    /// Any height at all: the range of models that do not state theirs. Overhead pictures refuse it.
+    /// The range of models that do not state one. Overhead pictures refuse it.
     INSONIFY_MEMBER static constexpr height_range unlimited() {
         return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     }
@@ -80,7 +83,7 @@ struct height_range {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The range that holds both.
+/// The smallest range that contains both.
 inline height_range merge(const height_range& a, const height_range& b) {
     return {(std::min)(a.lowest, b.lowest), (std::max)(a.highest, b.highest)};
 }
@@ -116,6 +119,21 @@ namespace detail::inline INSONIFY_FLAGS {
 
 using insonify::detail::refuse;
 using insonify::detail::require;
+using insonify::detail::require_fraction;
+using insonify::detail::require_range;
+
+template <std::floating_point Number>
+void require_metres(std::string_view name, Number value) {
+    require(value >= 0 && value < Number{1e6f}, name, value, "metres, at least 0");
+}
+template <std::floating_point Number>
+void require_positive_metres(std::string_view name, Number value) {
+    require(value > 0 && value < Number{1e6f}, name, value, "metres above 0");
+}
+inline void require_position(const std::string& name, const glm::dvec2& p) {
+    require_range(name + ".x", p.x, -1e9, 1e9, "within 1e9 metres");
+    require_range(name + ".y", p.y, -1e9, 1e9, "within 1e9 metres");
+}
 
 /// Samples per chunk where scratch memory is needed.
 inline constexpr std::size_t chunk = 256;
@@ -203,7 +221,7 @@ std::optional<type> only_type(const M& m) {
         return std::nullopt;
 }
 
-/// The labels that may occur, with their properties, as far as they are known.
+/// The labels that may occur, with their properties, as far as the model states them.
 template <model M>
 std::vector<type_properties> legend_of(const M& m) {
     if constexpr (requires { m.legend(); })
@@ -216,7 +234,7 @@ std::vector<type_properties> legend_of(const M& m) {
         return {};
 }
 
-/// Appends those of `more` whose labels are new.
+/// Appends the properties of labels that the legend lacks.
 inline void extend(std::vector<type_properties>& legend, const std::vector<type_properties>& more) {
     for (const type_properties& p : more)
         if (std::none_of(legend.begin(), legend.end(), [&](const type_properties& q) { return q.label == p.label; }))

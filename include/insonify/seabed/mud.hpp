@@ -45,13 +45,12 @@ class mud_sampler {
   public:
     explicit mud_sampler(const mud& m) : surface_(m.surface, m.seed, detail::stream::mud), trawls_(m.trawls, m.seed) {
         const float cell = 4 * m.size;
-        detail::require(m.size > 0 && m.size < 1e6f, "mud.size", m.size, "metres above 0");
+        detail::require_positive_metres("mud.size", m.size);
         detail::require(m.density >= 0 && m.density * cell * cell <= 1, "mud.density", m.density,
                         "0 to 1 / (4 size)^2 per square metre");
-        detail::require(m.mound_height >= 0 && m.mound_height < 1e6f, "mud.mound_height", m.mound_height,
-                        "metres, at least 0");
-        detail::require(m.pock_depth >= 0 && m.pock_depth < 1e6f, "mud.pock_depth", m.pock_depth, "metres, at least 0");
-        detail::require(m.pock_share >= 0 && m.pock_share <= 1, "mud.pock_share", m.pock_share, "0 to 1");
+        detail::require_metres("mud.mound_height", m.mound_height);
+        detail::require_metres("mud.pock_depth", m.pock_depth);
+        detail::require_fraction("mud.pock_share", m.pock_share);
         const float filled = m.density * cell * cell;
         marks_ = {static_cast<double>(cell),       filled, filled * (1 - m.pock_share), m.mound_height, m.pock_depth,
                   {m.seed, detail::stream::mounds}};

@@ -23,7 +23,6 @@ struct none {
         height_range range() const { return {}; }
     };
     INSONIFY_MEMBER sampler prepare() const { return {}; }
-    INSONIFY_MEMBER float operator()(double, double) const { return std::numeric_limits<float>::quiet_NaN(); }
 };
 
 }  // namespace seabed

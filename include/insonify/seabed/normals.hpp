@@ -39,7 +39,7 @@ class row_normals {
         using floats = insonify::detail::lanes<float, N>;
         using ints = insonify::detail::lanes<std::int32_t, N>;
         using insonify::detail::load;
-        one(0);
+        compute_one(0);
         std::size_t i = 1;
         const float twice = inner_ ? 1.0f : 2.0f;  // one-sided differences at an edge are doubled
         for (; i + N < width_; i += N) {
@@ -54,7 +54,7 @@ class row_normals {
             const floats known = (left - left) + (right - right) + (back - back) + (ahead - ahead) + (here - here);
             std::memcpy(&bits, &known, sizeof bits);
             if (insonify::detail::any(ints((bits & 0x7FFFFFFF) != 0))) {
-                for (std::size_t k = 0; k < N; ++k) one(i + k);
+                for (std::size_t k = 0; k < N; ++k) compute_one(i + k);
                 continue;
             }
             x = right - left;
@@ -67,11 +67,11 @@ class row_normals {
             insonify::detail::store(stored[2], floats(z_ * inverse));
             for (std::size_t k = 0; k < N; ++k) out_[i + k] = {stored[0][k], stored[1][k], stored[2][k]};
         }
-        for (; i < width_; ++i) one(i);
+        for (; i < width_; ++i) compute_one(i);
     }
 
   private:
-    void one(std::size_t i) const {
+    void compute_one(std::size_t i) const {
         const std::size_t left = i > 0 ? i - 1 : i, right = i + 1 < width_ ? i + 1 : i;
         const float dx = rise(here_[left], here_[i], here_[right], right - left == 2);
         const float dy = rise(back_[i], here_[i], ahead_[i], inner_);

@@ -15,7 +15,7 @@
 #include <iterator>
 #include <string_view>
 
-// Types named after their relief, with the gray values of the paper's pictures. `sediment` has none of them.
+// Types of relief, with the gray values of the paper's pictures. They are not sediments.
 //      label, name, reflectivity, speckle: looks, texture, steady
 #define INSONIFY_RELIEF_TYPES(ROW)           \
     ROW(sand, "sand", 0.45f, {1, 15, 0})     \
@@ -68,8 +68,8 @@ enum class type : std::uint8_t { INSONIFY_RELIEF_TYPES(INSONIFY_LABEL) INSONIFY_
 
 #undef INSONIFY_LABEL
 
-inline constexpr std::size_t first_own_label = 64;  ///< labels below are the library's, now or in future
-inline constexpr std::size_t label_count = 256;     ///< of all; the last means no seabed in images of labels
+inline constexpr std::size_t first_own_label = 64;  ///< lower labels are reserved for the library
+inline constexpr std::size_t label_count = 256;     ///< in images of labels the last means no seabed
 
 inline namespace INSONIFY_FLAGS {
 

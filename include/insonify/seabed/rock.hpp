@@ -44,18 +44,16 @@ inline namespace INSONIFY_FLAGS {
 class rock_sampler {
   public:
     explicit rock_sampler(const rock& r) : surface_(r.surface, r.seed, detail::stream::rubble), relief_(r.relief) {
-        detail::require(r.relief >= 0 && r.relief < 1e6f, "rock.relief", r.relief, "metres, at least 0");
-        detail::require(r.outcrop > 0 && r.outcrop < 1e6f, "rock.outcrop", r.outcrop, "metres above 0");
-        detail::require(r.block > 0 && r.block < 1e6f, "rock.block", r.block, "metres above 0");
-        detail::require(r.smallest >= 1e-3f && r.smallest <= r.block, "rock.smallest", r.smallest,
-                        "metres from 0.001 to rock.block");
-        detail::require(r.sizes >= 0 && r.sizes <= 4, "rock.sizes", r.sizes, "0 to 4");
-        detail::require(r.fracture >= 0 && r.fracture <= 1, "rock.fracture", r.fracture, "0 to 1");
+        detail::require_metres("rock.relief", r.relief);
+        detail::require_positive_metres("rock.outcrop", r.outcrop);
+        detail::require_positive_metres("rock.block", r.block);
+        detail::require_range("rock.smallest", r.smallest, 1e-3f, r.block, "metres from 0.001 to rock.block");
+        detail::require_range("rock.sizes", r.sizes, 0, 4, "0 to 4");
+        detail::require_fraction("rock.fracture", r.fracture);
         detail::require(r.steepness > 0 && r.steepness < 1e6f, "rock.steepness", r.steepness, "a slope above 0");
         double cell = static_cast<double>(r.outcrop) / 2;
-        for (std::uint32_t k = 0; k < 3; ++k, cell /= 2) {
+        for (std::uint32_t k = 0; k < 3; ++k, cell /= 2)
             outcrops_.push_back(detail::gradient_noise(cell, {r.seed, detail::stream::outcrops, k}));
-        }
         // Blocks of half the size are 2^sizes times as many, in four times as many cells.
         const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(r.sizes) - 2));
         float share = 1, height = 0.8f * r.relief, largest = 1;

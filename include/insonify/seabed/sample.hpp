@@ -26,7 +26,7 @@ inline namespace INSONIFY_FLAGS {
 /// vertices where they overlap: to the last bit if the spacing is a sum of few powers of two, as 1/64 m is.
 /// @throws invalid_input for a spacing not above 0, or corners beyond 1e9 metres or in the wrong order
 inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
-    detail::require(spacing > 0 && spacing < 1e6, "spacing", spacing, "metres above 0");
+    detail::require_positive_metres("spacing", spacing);
     const auto axis = [&](double from, double to, const char* name) {
         detail::require(from >= -1e9 && to <= 1e9 && from <= to, name, to, "not below low, both within 1e9 metres");
         const std::int64_t first = numeric::floor_to_int(from / spacing);

@@ -38,7 +38,7 @@ class sculpt_sampler {
   public:
     explicit sculpt_sampler(const sculpted& s) : ground_(s.ground.prepare()) {
         for (const edit& e : s.edits)
-            edits_.push_back({e, std::visit([](const auto& held) { return detail::extent_of(held); }, e)});
+            edits_.push_back({e, std::visit([](const auto& held) { return detail::ground_of(held); }, e)});
     }
 
     void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
@@ -58,15 +58,15 @@ class sculpt_sampler {
         if (count == 0) return ground_.row(line, heights, types);
         fill(count - 1, line, heights, types);
         const edit& current = edits_[count - 1].applied;
-        const detail::extent& bounds = edits_[count - 1].bounds;
-        if (line.y < bounds.low.y || line.y > bounds.high.y || heights.empty()) return;
+        const detail::ground_rect& bounds = edits_[count - 1].bounds;
+        if (line.y < bounds.lower.y || line.y > bounds.upper.y || heights.empty()) return;
         // The samples within its bounds.
         std::size_t begin = 0, end = heights.size();
-        const auto reached = [&](std::size_t i) { return line.x(i) >= bounds.low.x && line.x(i) <= bounds.high.x; };
+        const auto reached = [&](std::size_t i) { return line.x(i) >= bounds.lower.x && line.x(i) <= bounds.upper.x; };
         if (line.spacing > 0) {
-            const auto first = (bounds.low.x - line.x(0)) / line.spacing - 1;
+            const auto first = (bounds.lower.x - line.x(0)) / line.spacing - 1;
             if (first > 0) begin = first < static_cast<double>(end) ? static_cast<std::size_t>(first) : end;
-            const auto past = (bounds.high.x - line.x(0)) / line.spacing + 2;
+            const auto past = (bounds.upper.x - line.x(0)) / line.spacing + 2;
             if (past < static_cast<double>(end)) end = past > 0 ? static_cast<std::size_t>(past) : 0;
         }
         while (begin < end && !reached(begin)) ++begin;
@@ -77,21 +77,20 @@ class sculpt_sampler {
         const scanline there = line.from(begin);
         std::visit(
             [&](const auto& e) {
-                if constexpr (std::is_same_v<std::remove_cvref_t<decltype(e)>, smooth>) {
+                if constexpr (std::is_same_v<std::remove_cvref_t<decltype(e)>, smooth>)
                     detail::smooth_row(e, there, part, [&](const scanline& nodes, std::span<float> at_nodes) {
                         fill(count - 1, nodes, at_nodes, {});
                     });
-                } else {
+                else
                     for (std::size_t i = 0; i < part.size(); ++i)
                         part[i] = detail::height_after(e, {there.x(i), there.y}, part[i]);
-                }
             },
             current);
     }
 
     struct bounded_edit {
         edit applied;
-        detail::extent bounds;
+        detail::ground_rect bounds;
     };
     any_sampler ground_;
     std::vector<bounded_edit> edits_;

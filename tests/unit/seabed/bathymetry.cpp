@@ -106,6 +106,23 @@ TEST_CASE("Text that is not a list of soundings is refused") {
     CHECK_THROWS_WITH(sb::parse_xyz("0 0 1", 0), ContainsSubstring("spacing is 0"));
 }
 
+TEST_CASE("Soundings in degrees, which share a few vertices, are refused") {
+    const auto survey = [](double x, double y, double step, int side) {
+        std::string text = "longitude latitude depth\n";
+        for (int i = 0; i < side * side; ++i)
+            text += std::to_string(x + step * (i % side)) + ' ' + std::to_string(y + step * (i / side)) + " 12\n";
+        return text;
+    };
+    CHECK_THROWS_WITH(sb::parse_xyz(survey(10.6, 54.3, 1e-4, 30), 1, -1),
+                      ContainsSubstring("all 900 soundings lie within 0.0029 x 0.0029 metres") &&
+                          ContainsSubstring("projected to metres"));
+    CHECK_THROWS_WITH(sb::parse_xyz(survey(10.6, 54.3, 0.1, 30), 1, -1), ContainsSubstring("projected to metres"));
+    CHECK_THROWS_WITH(sb::parse_xyz("3 4 5\n", 1), ContainsSubstring("lie within 0 x 0 metres"));
+    // The same numbers are metres of a small tank at a spacing of its size.
+    CHECK(sb::parse_xyz(survey(10.6, 54.3, 0.1, 30), 0.1).heights.width() == 30);
+    CHECK(sb::parse_xyz("0 0 1\n1 0 2\n0 1 3\n1 1 4\n", 1).heights.size() == 4);
+}
+
 TEST_CASE("A 16-bit image keeps its resolution, and its no-data value becomes NaN") {
     in::image<std::uint16_t> picture(2, 2);
     picture(0, 0) = 0, picture(1, 0) = 1, picture(0, 1) = 65535, picture(1, 1) = 300;

@@ -56,7 +56,7 @@ class block_layer {
     double upper_bound() const { return 1.00001 * (0.99 + 0.5 * 1.41422 * 0.975) * static_cast<double>(height_); }
 
   private:
-    /// The blocks of N adjacent cells that a row crosses; most cells have none.
+    /// The blocks of N adjacent cells that a row crosses, in most cells none.
     template <int N>
     struct found {
         static constexpr std::size_t size = static_cast<std::size_t>(N);
@@ -65,7 +65,7 @@ class block_layer {
         alignas(32) float x[size], y[size], radius[size], chord[size];  // in cells, from the block's centre
 
         INSONIFY_INLINE bool find(const block_layer& layer, const cell_hash::row& hash, float dy, std::uint32_t column,
-                                  std::int64_t most) {
+                                  std::int64_t columns) {
             using words = lanes<std::uint32_t, N>;
             using ints = lanes<std::int32_t, N>;
             using floats = lanes<float, N>;
@@ -75,14 +75,14 @@ class block_layer {
             second = (first ^ (first >> 15)) * 0x2C1B3C6Du;
             second = (second ^ (second >> 12)) * 0x297A2D39u;
             second = second ^ (second >> 15);
-            const auto number_of = [](floats& into, const words& bits) INSONIFY_INLINE_LAMBDA {
+            const auto signed_fraction = [](floats& into, const words& bits) INSONIFY_INLINE_LAMBDA {
                 insonify::detail::convert(into, ints(ints(bits) >> 16));  // the upper half, in [-1/2, 1/2)
                 into = into * 0x1p-16f;
             };
             floats up, form, along;
-            number_of(up, first);
-            number_of(along, second);
-            number_of(form, words(second << 16));
+            signed_fraction(up, first);
+            signed_fraction(along, second);
+            signed_fraction(form, words(second << 16));
             up = dy - up;
             // Medium sizes are the most frequent.
             const floats reach = 0.6f + 1.2f * form * (form < 0.0f ? -form : form);
@@ -90,7 +90,7 @@ class block_layer {
             // column.
             floats half = reach * reach * 1.1715729f - up * up;
             const ints zero{}, one = zero + 1;
-            const auto limit = static_cast<std::uint32_t>((std::min)(most, std::int64_t{N}));
+            const auto limit = static_cast<std::uint32_t>((std::min)(columns, std::int64_t{N}));
             const ints chance = ints(first & 0xFFFFu);
             const ints crossed = (half > 0.0f ? one : zero) & (chance < layer.coverage_ ? one : zero) &
                                  (ints(number) < static_cast<std::int32_t>(limit) ? one : zero);

@@ -151,11 +151,10 @@ class power_law_noise {
   public:
     /// @throws invalid_input for parameters out of the ranges above
     power_law_noise(const roughness& r, std::uint64_t seed, stream purpose, std::uint32_t layer = 0) {
-        require(r.rms >= 0 && r.rms < 1e6f, "roughness.rms", r.rms, "metres, at least 0");
-        require(r.longest > 0 && r.longest < 1e6f, "roughness.longest", r.longest, "metres above 0");
-        require(r.shortest >= 1e-4f && r.shortest <= r.longest, "roughness.shortest", r.shortest,
-                "metres from 1e-4 to roughness.longest");
-        require(r.exponent >= 2 && r.exponent <= 4, "roughness.exponent", r.exponent, "2 to 4");
+        require_metres("roughness.rms", r.rms);
+        require_positive_metres("roughness.longest", r.longest);
+        require_range("roughness.shortest", r.shortest, 1e-4f, r.longest, "metres from 1e-4 to roughness.longest");
+        require_range("roughness.exponent", r.exponent, 2, 4, "2 to 4");
         if (r.rms == 0) return;
 
         // An octave spreads its variance over an area of the wave number plane four times that of the one before, so

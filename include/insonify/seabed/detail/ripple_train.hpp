@@ -57,12 +57,12 @@ class ripple_train {
     /// @param name  of the system, for errors
     ripple_train(const ripple_system& r, std::uint64_t seed, stream purpose, const std::string& name)
         : wavelength_(static_cast<double>(r.wavelength)), half_height_(r.height() / 2), sharpness_(r.sharpness) {
-        require(r.wavelength > 0 && r.wavelength < 1e6f, name + ".wavelength", r.wavelength, "metres above 0");
-        require(r.steepness >= 0 && r.steepness <= 0.5f, name + ".steepness", r.steepness, "0 to 0.5");
+        require_positive_metres(name + ".wavelength", r.wavelength);
+        require_range(name + ".steepness", r.steepness, 0, 0.5f, "0 to 0.5");
         require(numeric::is_finite(r.direction), name + ".direction", r.direction, "a finite angle");
-        require(r.spread >= 0 && r.spread <= 0.5f, name + ".spread", r.spread, "0 to 0.5 radians");
-        require(r.bandwidth >= 0 && r.bandwidth <= 0.25f, name + ".bandwidth", r.bandwidth, "0 to 0.25");
-        require(r.sharpness >= 0 && r.sharpness <= 0.9f, name + ".sharpness", r.sharpness, "0 to 0.9");
+        require_range(name + ".spread", r.spread, 0, 0.5f, "0 to 0.5 radians");
+        require_range(name + ".bandwidth", r.bandwidth, 0, 0.25f, "0 to 0.25");
+        require_range(name + ".sharpness", r.sharpness, 0, 0.9f, "0 to 0.9");
         if (half_height_ > 0) draw_waves(r, random_sequence(seed, static_cast<std::uint32_t>(purpose)));
     }
 

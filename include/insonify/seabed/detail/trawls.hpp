@@ -22,23 +22,23 @@ class trawl_furrows {
   public:
     trawl_furrows(const trawl_marks& t, std::uint64_t seed)
         : depth_(t.depth), width_(static_cast<double>(t.width)), hash_(seed, stream::trawls) {
-        require(t.width > 0 && t.width < 1e6f, "trawl_marks.width", t.width, "metres above 0");
+        require_positive_metres("trawl_marks.width", t.width);
         require(t.density >= 0 && 4 * t.density * t.width <= 1, "trawl_marks.density", t.density,
                 "0 to 1 / (4 width) per metre");
-        require(t.depth >= 0 && t.depth < 1e6f, "trawl_marks.depth", t.depth, "metres, at least 0");
-        require(t.directions >= 1 && t.directions <= 8, "trawl_marks.directions", t.directions, "1 to 8");
-        require(t.length > 0 && t.length < 1e6f, "trawl_marks.length", t.length, "metres above 0");
+        require_metres("trawl_marks.depth", t.depth);
+        require_range("trawl_marks.directions", t.directions, 1, 8, "1 to 8");
+        require_positive_metres("trawl_marks.length", t.length);
         if (t.density == 0 || t.depth == 0) return;
         random_sequence draw(seed, static_cast<std::uint32_t>(stream::trawls));
         const double turn = draw.uniform();
         // A furrow is present along half of its strip.
-        const double lane = 0.5 * t.directions / static_cast<double>(t.density);
+        const double strip = 0.5 * t.directions / static_cast<double>(t.density);
         for (int n = 0; n < t.directions; ++n) {
             const auto heading = numeric::sin_cos_turns(turn + 0.5 * (n + 0.6 * draw.uniform()) / t.directions);
             const double length = static_cast<double>(t.length);
-            families_.push_back({heading.cosine, heading.sine, 1 / lane, 1 / length, 1 / (5.3 * length)});
+            families_.push_back({heading.cosine, heading.sine, 1 / strip, 1 / length, 1 / (5.3 * length)});
         }
-        half_width_ = static_cast<float>(0.5 * static_cast<double>(t.width) / lane);
+        half_width_ = static_cast<float>(0.5 * static_cast<double>(t.width) / strip);
     }
 
     void add(const stretch& part, stretch_values& values, isa level = best_isa()) const {
@@ -54,7 +54,7 @@ class trawl_furrows {
 
     /// Furrows of one direction.
     struct family {
-        double cosine, sine, per_lane, per_length, per_bend;  // the last three per metre
+        double cosine, sine, per_strip, per_length, per_bend;  // the last three per metre
     };
 
     template <int N>
@@ -71,14 +71,14 @@ class trawl_furrows {
         using insonify::detail::lane;
         using words = lanes<std::uint32_t, N>;
         using ints = lanes<std::int32_t, N>;
-        const double across = part.y * f.cosine * f.per_lane;
-        const std::int64_t first = numeric::floor_to_int(across - part.x[0] * f.sine * f.per_lane);
-        lanes<float, N> off, lot, bends, sine, cosine;
+        const double across = part.y * f.cosine * f.per_strip;
+        const std::int64_t first = numeric::floor_to_int(across - part.x[0] * f.sine * f.per_strip);
+        lanes<float, N> off, shift, bends, sine, cosine;
         ints cell;
-        locate<N>(off, cell, &part.x[i], -f.sine * f.per_lane, across, static_cast<double>(first));
+        locate<N>(off, cell, &part.x[i], -f.sine * f.per_strip, across, static_cast<double>(first));
         words bits;
         hash_[static_cast<std::int64_t>(n)].hash_lanes(bits, words(words(cell) + static_cast<std::uint32_t>(first)));
-        insonify::detail::convert(lot, ints(ints(bits << 16) >> 16));
+        insonify::detail::convert(shift, ints(ints(bits << 16) >> 16));
         insonify::detail::convert(bends, ints(ints(bits) >> 16));
         // A furrow stays within its strip, so that a sample meets one furrow at most.
         lanes<float, N> turns_along, phase = bends * 0x1p-16f;
@@ -87,7 +87,7 @@ class trawl_furrows {
         phase = phase > 0.5f ? phase - 1.0f : phase;
         phase = phase < -0.5f ? phase + 1.0f : phase;
         insonify::detail::cos_sin_turns<N>(cosine, sine, phase);
-        off = off - (0.5f + (0.5f - 2 * half_width_) * (0.7f * lot * 0x1p-15f + 0.3f * sine));
+        off = off - (0.5f + (0.5f - 2 * half_width_) * (0.7f * shift * 0x1p-15f + 0.3f * sine));
         off = (off < 0.0f ? -off : off) * (1 / half_width_);
         if (!insonify::detail::any(ints(off < 2.0f))) return;
         for (int k = 0; k < N; ++k) {
@@ -112,7 +112,7 @@ class trawl_furrows {
     }
 
     std::vector<family> families_;
-    float depth_, half_width_ = 0;  // the latter in lanes
+    float depth_, half_width_ = 0;  // the latter in strips
     double width_;
     cell_hash hash_;
 };
