@@ -31,15 +31,14 @@ struct color_table {
     }
     INSONIFY_TAGGED void row(const float* from, rgb8* to, int count, int, int) const {
         std::uint8_t codes[run_length];
-        quantize_row(std::span<const float>(from, static_cast<std::size_t>(count)),
-                     std::span<std::uint8_t>(codes, static_cast<std::size_t>(count)));
+        quantize_row(from, codes, count);
         for (int i = 0; i < count; ++i) to[i] = colors[codes[i]];
     }
 };
 
 inline namespace INSONIFY_FLAGS {
 
-/// The table of `color(level)` for levels 0 to 255.
+/// Tabulates `color(level)` for levels 0 to 255.
 template <class Fn>
 constexpr color_table tabulate_colors(Fn color) {
     color_table table{};
@@ -88,18 +87,17 @@ inline constexpr color_table hot = tabulate_colors([](int level) {
     return rgb8{share(level + 1, 96), share(level + 1 - 96, 96), share(level + 1 - 192, 64)};
 });
 
-/// The amber of side-scan displays and printed records: black, brown, amber and pale yellow, piecewise linear through
-/// five colours.
+/// The amber of side-scan displays and printed records: black, brown, amber and pale yellow, piecewise linear.
 inline constexpr color_table amber = tabulate_colors([](int level) {
     return detail::between_colors(level, {{{0, 0, 0}, {74, 40, 8}, {158, 92, 16}, {230, 164, 48}, {255, 244, 200}}});
 });
 
-/// The blue of other waterfall displays: black, blue-green and white, piecewise linear through five colours.
+/// The blue of other waterfall displays: black, blue-green and white, piecewise linear.
 inline constexpr color_table sea = tabulate_colors([](int level) {
     return detail::between_colors(level, {{{0, 0, 0}, {0, 40, 72}, {0, 104, 136}, {88, 184, 192}, {255, 255, 255}}});
 });
 
-/// Bright becomes dark, as on paper recorders.
+/// Inverted gray, as on paper recorders.
 inline constexpr color_table inverse_gray = tabulate_colors([](int level) {
     const auto value = static_cast<std::uint8_t>(255 - level);
     return rgb8{value, value, value};

@@ -25,12 +25,10 @@ struct to_code {
     constexpr rgb<Code> operator()(const rgb<Channel>& value) const {
         return {quantize<Code>(value.r), quantize<Code>(value.g), quantize<Code>(value.b)};
     }
-    void row(const float* from, Code* to, int count, int, int) const {
-        const auto pixels = static_cast<std::size_t>(count);
-        quantize_row(std::span<const float>(from, pixels), std::span<Code>(to, pixels));
-    }
+    void row(const float* from, Code* to, int count, int, int) const { quantize_row(from, to, count); }
 };
 
+/// Dequantizes gray or each channel of a colour.
 struct to_unit {
     using is_filter = std::true_type;
     template <pixel_code Code>

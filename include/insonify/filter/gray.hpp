@@ -52,9 +52,8 @@ struct to_gray {
 
     /// @throws invalid_input for a weight that is not in [0, 1], or a sum above 1 (by more than rounding)
     INSONIFY_TAGGED weighted_sum pass() const {
-        for (const double weight : {weights.r, weights.g, weights.b}) {
-            detail::require(weight >= 0 && weight <= 1, "to_gray.weights", weight, "in [0, 1]");
-        }
+        for (const double weight : {weights.r, weights.g, weights.b})
+            detail::require_range("to_gray.weights", weight, 0, 1, "in [0, 1]");
         const double sum = weights.r + weights.g + weights.b;
         detail::require(sum <= 1 + 1e-9, "the sum of to_gray.weights", sum, "at most 1");
         return {weights};

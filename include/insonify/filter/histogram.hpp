@@ -1,12 +1,13 @@
 // Histograms with bins of equal width, and two filters of MATLAB's: histogram equalization and matching.
 //
-// NaN is not counted and stays NaN. A constant image becomes one level: that at which the cumulative share of the
-// wanted histogram reaches one half, or 1 for a source at level 0 or the last level, by MATLAB's rule.
+// NaN is not counted and stays NaN. By MATLAB's rule, a constant image becomes the level at which the cumulative share
+// of the wanted histogram reaches one half, or 1 if the image is at level 0 or the last level.
 //
 // Based on: MathWorks. Image Processing Toolbox, imhist, histeq, imhistmatch (64 bins, 256 source levels, 65536 for
 // codes of 16 bits).
 #pragma once
 
+#include <insonify/core/numeric.hpp>
 #include <insonify/filter/detail/level_map.hpp>
 
 #include <concepts>
@@ -48,7 +49,7 @@ struct histogram {
 namespace detail::inline INSONIFY_FLAGS {
 
 inline void require_bins(const char* name, int bins) {
-    require(bins >= 2 && bins <= 65536, name, bins, "2 to 65536");
+    require_range(name, bins, 2, 65536, "2 to 65536");
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -71,7 +72,7 @@ histogram histogram_of(image_view<const Pixel> source, int bins = 256, E&& ex = 
     }
     return {detail::count_bands(source, bins, ex, [bins] { return detail::bin_counter<Pixel>(bins); })};
 }
-/// The same of an image.
+/// The same for an image.
 template <countable_pixel Pixel, executor_argument E = serial_executor>
 histogram histogram_of(const image<Pixel>& source, int bins = 256, E&& ex = {}) {
     return histogram_of(source.view(), bins, ex);
@@ -79,7 +80,7 @@ histogram histogram_of(const image<Pixel>& source, int bins = 256, E&& ex = {}) 
 
 }  // namespace INSONIFY_FLAGS
 
-/// Spreads the values evenly over [0, 1]. MATLAB: histeq(I, levels).
+/// Histogram equalization: spreads the values evenly over [0, 1]. MATLAB: histeq(I, levels).
 struct equalize {
     int levels = 64;  ///< number of distinct values in the result, 2 to 65536
 

@@ -46,9 +46,8 @@ constexpr float from_ordered_bits(std::uint32_t bits) {
 inline void sort_keys(std::vector<std::uint32_t>& keys) {
     constexpr std::uint32_t mask = 2047;
     std::array<std::array<std::size_t, mask + 1>, 3> starts{};
-    for (const std::uint32_t key : keys) {
+    for (const std::uint32_t key : keys)
         for (std::size_t digit = 0; digit < 3; ++digit) ++starts[digit][(key >> (11 * digit)) & mask];
-    }
     std::vector<std::uint32_t> sorted(keys.size());
     for (std::size_t digit = 0; digit < 3; ++digit) {
         std::size_t start = 0;
@@ -103,7 +102,7 @@ distribution distribution_of(image_view<const Code> source, E&& ex = {}) {
     }
     return result;
 }
-/// The same of an image.
+/// The same for an image.
 template <countable_pixel Pixel>
 distribution distribution_of(const image<Pixel>& source) {
     return distribution_of(source.view());

@@ -92,11 +92,10 @@ class scaled_law {
         const float* const scale = scale_.row(run);
         draw_buffer buffer;
         const float* draws = buffer;
-        if (correlated_) {
+        if (correlated_)
             correlated_->row(buffer, 0, run);
-        } else {
+        else
             draws = white_draws<Draws>(buffer, noise_, 0, run);
-        }
         apply_rule(rule_, from, draws, scale, to, run.count);
     }
     void prepare(const pixel_area& area) { scale_.prepare(area); }
@@ -108,7 +107,7 @@ class scaled_law {
     std::optional<correlated_draws> correlated_;
 };
 
-/// Salt and pepper: p is uniform in (0, 1].
+/// Strikes a pixel if a number p, uniform in (0, 1], is below the density: black below half of it, else white.
 struct struck_pixel {
     template <int N>
     INSONIFY_INLINE void apply(lanes<float, N>& value, const lanes<float, N>& p, const lanes<float, N>& density) const {

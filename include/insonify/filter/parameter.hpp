@@ -1,5 +1,5 @@
 // Parameters of filters: a number for all pixels, for each pixel or for each seabed type; correlation lengths of noise;
-// what pixels hold.
+// the meaning of pixel values.
 #pragma once
 
 #include <insonify/core/image_view.hpp>
@@ -27,8 +27,8 @@ inline void check_size(const std::string& name, int width, int height, const pix
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// One number for all pixels, or a map of the image's size. Views are read when the filter runs; their pixels have to
-/// exist until then.
+/// One number for all pixels, or a map of the image's size. Maps are read when the filter runs and must exist until
+/// then.
 ///
 ///     in::speckle{.variance = 0.05f}
 ///     in::speckle{.variance = variances.view()}
@@ -59,11 +59,10 @@ class parameter {
     /// @throws invalid_input for a map of another size
     INSONIFY_TAGGED void prepare(const std::string& name, const pixel_area& area) {
         x_ = area.x, y_ = area.y;
-        if (by_type_) {
+        if (by_type_)
             detail::check_size(name, types_.width(), types_.height(), area);
-        } else if (!is_constant()) {
+        else if (!is_constant())
             detail::check_size(name, map_.width(), map_.height(), area);
-        }
     }
 
     /// Writes the numbers of `count` pixels of a row, the first at (x, y), to `buffer`.
@@ -100,7 +99,7 @@ struct correlation_length {
     float x = 0, y = 0;  ///< 0 to 16
 };
 
-/// What an image's pixels hold. An amplitude is the square root of an intensity.
+/// Meaning of pixel values. An amplitude is the square root of an intensity.
 enum class echo { amplitude, intensity };
 
 }  // namespace INSONIFY_ABI

@@ -69,11 +69,10 @@ concept stage = !is_image<std::remove_cvref_t<F>> &&
 
 template <class F>
 auto as_stages(F&& f) {
-    if constexpr (is_chain<std::remove_cvref_t<F>>) {
+    if constexpr (is_chain<std::remove_cvref_t<F>>)
         return std::forward<F>(f).stages;
-    } else {
+    else
         return std::tuple<std::decay_t<F>>(std::forward<F>(f));
-    }
 }
 
 template <class... Stages>
@@ -84,11 +83,10 @@ filter_chain<Stages...> make_chain(std::tuple<Stages...> stages) {
 template <class Source, class F, class E, class Sink>
 auto apply_to(Source&& source, const F& f, E& ex, pixel_origin origin, Sink sink) {
     const run_context<E, Sink> run{ex, origin, sink};
-    if constexpr (is_chain<F>) {
+    if constexpr (is_chain<F>)
         return f.run(std::forward<Source>(source), run);
-    } else {
+    else
         return run_stages(std::forward<Source>(source), untouched{}, run, f);
-    }
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -110,7 +108,7 @@ template <class Pixel, filter_for<Pixel> F, executor_argument Executor = serial_
 auto apply(image<Pixel>&& in, const F& f, Executor&& ex = serial_executor{}, pixel_origin origin = {}) {
     return detail::apply_to(std::move(in), f, ex, origin, detail::into_image{});
 }
-/// The same of pixels in memory of your own.
+/// The same for pixels in the caller's memory.
 template <class Pixel, filter_for<std::remove_const_t<Pixel>> F, executor_argument Executor = serial_executor>
 auto apply(image_view<Pixel> in, const F& f, Executor&& ex = serial_executor{}, pixel_origin origin = {}) {
     return detail::apply_to(in, f, ex, origin, detail::into_image{});
@@ -142,7 +140,7 @@ template <class Pixel, filter_for<Pixel> F>
 auto operator|(image<Pixel>&& in, const F& f) {
     return apply(std::move(in), f);
 }
-/// The same of pixels in memory of your own.
+/// The same for pixels in the caller's memory.
 template <class Pixel, filter_for<std::remove_const_t<Pixel>> F>
 auto operator|(image_view<Pixel> in, const F& f) {
     return apply(in, f);

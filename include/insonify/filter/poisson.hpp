@@ -54,7 +54,7 @@ struct poisson_counts {
     static std::uint32_t block(std::uint32_t trial) { return trial / 2; }
 
     template <int N>
-    INSONIFY_INLINE void attempt(lanes<double, N>& count, lanes<std::int64_t, N>& settled,
+    INSONIFY_INLINE void attempt(lanes<double, N>& count, lanes<std::int64_t, N>& accepted,
                                  const lanes<std::uint64_t, N> (&word)[4], const lanes<double, N>& mean,
                                  std::uint32_t trial) const {
         using flags = lanes<std::int64_t, N>;
@@ -63,8 +63,8 @@ struct poisson_counts {
         uniform_lanes<N>(v, word[2 * (trial & 1) + 1]);
         const flags is_small = flags(mean < min_rejection_mean);
         count = lanes<double, N>{};
-        settled = is_small;
-        if (any(flags(is_small == 0))) reject<N>(count, settled, u, v, mean);
+        accepted = is_small;
+        if (any(flags(is_small == 0))) reject<N>(count, accepted, u, v, mean);
         if (any(is_small)) invert<N>(count, u, mean);
     }
 
@@ -87,7 +87,7 @@ struct poisson_counts {
     }
 
     template <int N>
-    INSONIFY_INLINE static void reject(lanes<double, N>& count, lanes<std::int64_t, N>& settled,
+    INSONIFY_INLINE static void reject(lanes<double, N>& count, lanes<std::int64_t, N>& accepted,
                                        const lanes<double, N>& uniform, const lanes<double, N>& v,
                                        const lanes<double, N>& mean) {
         using doubles = lanes<double, N>;
@@ -106,9 +106,9 @@ struct poisson_counts {
         doubles log_height, deficit;
         log_lanes<N>(log_height, height * height * (k + 1.0));
         poisson_deficit<N>(deficit, k, mean);
-        settled = settled | squeezed |
-                  (flags(count >= 0.0) & (flags(edge >= 0.013) | flags(v <= edge)) &
-                   flags(0.5 * log_height + deficit <= 0.0));
+        accepted = accepted | squeezed |
+                   (flags(count >= 0.0) & (flags(edge >= 0.013) | flags(v <= edge)) &
+                    flags(0.5 * log_height + deficit <= 0.0));
     }
 };
 

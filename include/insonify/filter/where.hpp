@@ -45,7 +45,7 @@ class masked_pass {
 inline namespace INSONIFY_FLAGS {
 
 /// The pixels where the mask is not 0, as one row: a reference for `histogram_of`, `distribution_of` and the matching
-/// filters where only part of an image is to count.
+/// filters that counts part of an image only.
 /// @throws invalid_input for a mask of another size
 template <class Pixel>
 image<Pixel> pixels_where(image_view<const std::uint8_t> mask, image_view<const Pixel> source) {
@@ -60,7 +60,7 @@ image<Pixel> pixels_where(image_view<const std::uint8_t> mask, image_view<const 
             if (mask(x, y) != 0) *next++ = source(x, y);
     return result;
 }
-/// The same of an image.
+/// The same for an image.
 template <class Pixel>
 image<Pixel> pixels_where(image_view<const std::uint8_t> mask, const image<Pixel>& source) {
     return pixels_where(mask, source.view());
@@ -76,18 +76,13 @@ struct where_filter {
 
     /// @throws invalid_input for a mask of another size, and as the filter
     template <class Pixel>
-        requires(measured_filter<F, Pixel>&& std::same_as<typename detail::filter_result<F, Pixel>::type, Pixel>)
+        requires((measured_filter<F, Pixel> ||
+                  pixel_filter<F, Pixel>)&&std::same_as<typename detail::filter_result<F, Pixel>::type, Pixel>)
     auto pass(image_view<const Pixel> source) const {
-        const image<Pixel> chosen = pixels_where(mask, source);
-        auto inner = filter.pass(chosen.view());
-        return detail::masked_pass<decltype(inner)>(std::move(inner), mask);
-    }
-    template <class Pixel>
-        requires(pixel_filter<F, Pixel> && !measured_filter<F, Pixel> &&
-                 std::same_as<typename detail::filter_result<F, Pixel>::type, Pixel>)
-    auto pass(image_view<const Pixel> source) const {
+        image<Pixel> chosen;
+        if constexpr (measured_filter<F, Pixel>) chosen = pixels_where(mask, source);
         const serial_executor ex;
-        auto inner = detail::make_pass(filter, source, ex);
+        auto inner = detail::make_pass(filter, image_view<const Pixel>(chosen), ex);
         return detail::masked_pass<decltype(inner)>(std::move(inner), mask);
     }
 };
@@ -97,7 +92,7 @@ struct where_filter {
 ///
 ///     image | where(is_seabed, match_histogram(pixels_where(reference_mask, reference)))
 ///
-/// @param mask  as large as the image; not kept alive
+/// @param mask  of the image's size; its pixels must exist until the filter has run
 template <class F>
     requires(!detail::is_chain<std::decay_t<F>>)
 where_filter<std::decay_t<F>> where(image_view<const std::uint8_t> mask, F&& filter) {

@@ -85,8 +85,7 @@ class code_counter {
     /// NaN is not counted.
     void add(const float* values, int count) {
         Code codes[run_length];
-        quantize_row(std::span<const float>(values, static_cast<std::size_t>(count)),
-                     std::span<Code>(codes, static_cast<std::size_t>(count)));
+        quantize_row(values, codes, count);
         add(codes, count);
         counts_[0] -= static_cast<std::uint32_t>(count_nan(values, count));
     }

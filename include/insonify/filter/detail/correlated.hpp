@@ -16,8 +16,7 @@ inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 inline void require_correlation(const char* name, const correlation_length& length) {
-    for (const float pixels : {length.x, length.y})
-        require(pixels >= 0 && pixels <= 16, name, pixels, "0 to 16 pixels");
+    for (const float pixels : {length.x, length.y}) require_range(name, pixels, 0, 16, "0 to 16 pixels");
 }
 
 /// Standard normal draws, one for each pixel and field, correlated along rows and columns. A draw depends on the

@@ -1,4 +1,4 @@
-// The echo law as a noise pass: draws intensities of mean 1 and multiplies pixels by them or by their square roots.
+// Speckle as a noise pass: draws intensities of mean 1 and multiplies pixels by them or by their square roots.
 #pragma once
 
 #include <insonify/core/detail/echo_statistics.hpp>
@@ -31,10 +31,10 @@ struct gamma_rejection {
     static std::uint32_t block(std::uint32_t trial) { return trial; }
 
     template <int N>
-    INSONIFY_INLINE void attempt(lanes<double, N>& number, lanes<std::int64_t, N>& settled,
+    INSONIFY_INLINE void attempt(lanes<double, N>& number, lanes<std::int64_t, N>& accepted,
                                  const lanes<std::uint64_t, N> (&word)[4], const lanes<double, N>& shape,
                                  std::uint32_t) const {
-        try_gamma<N>(number, settled, word, shape);
+        try_gamma<N>(number, accepted, word, shape);
     }
 };
 
@@ -63,6 +63,7 @@ struct echo_statistics {
     parameter steady = 0;
 };
 
+/// Law of a noise_pass that multiplies pixels by random intensities, or by their square roots.
 class echo_law {
   public:
     echo_law(noise_key noise, noise_key texture_noise, echo_statistics statistics, echo of,

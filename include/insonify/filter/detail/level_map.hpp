@@ -34,23 +34,20 @@ class level_map {
     template <std::same_as<Pixel> P>
     P operator()(P pixel) const {
         const std::vector<Pixel>& values = *values_;
-        if constexpr (std::is_same_v<P, float>) {
+        if constexpr (std::is_same_v<P, float>)
             return pixel == pixel ? values[quantize<std::uint8_t>(pixel)] : pixel;
-        } else {
+        else
             return values[pixel];
-        }
     }
     void row(const Pixel* from, Pixel* to, int count, int, int) const {
         const Pixel* const values = values_->data();
         if constexpr (std::is_same_v<Pixel, float>) {
             std::uint8_t codes[run_length];
-            quantize_row(std::span<const float>(from, static_cast<std::size_t>(count)),
-                         std::span<std::uint8_t>(codes, static_cast<std::size_t>(count)));
-            if (count_nan(from, count) == 0) {
+            quantize_row(from, codes, count);
+            if (count_nan(from, count) == 0)
                 for (int i = 0; i < count; ++i) to[i] = values[codes[i]];
-            } else {
+            else
                 for (int i = 0; i < count; ++i) to[i] = from[i] == from[i] ? values[codes[i]] : from[i];
-            }
         } else {
             for (int i = 0; i < count; ++i) to[i] = values[from[i]];
         }
@@ -78,15 +75,13 @@ level_map<Pixel> map_levels(std::span<const std::uint64_t> source, std::span<con
         below += source[level];
         const bool inner = level > 0 && level + 1 < levels;
         const double share = static_cast<double>(below) - (inner ? 0.5 * static_cast<double>(source[level]) : 0);
-        while (static_cast<double>(reached) / wanted_total < share / source_total - tolerance) {
+        while (static_cast<double>(reached) / wanted_total < share / source_total - tolerance)
             reached += wanted[++target];
-        }
         const double value = static_cast<double>(target) / static_cast<double>(wanted.size() - 1);
-        if constexpr (std::is_same_v<Pixel, float>) {
+        if constexpr (std::is_same_v<Pixel, float>)
             values[level] = static_cast<float>(value);
-        } else {
+        else
             values[level] = static_cast<Pixel>((std::numeric_limits<Pixel>::max)() * value + 0.5);
-        }
     }
     return level_map<Pixel>(std::move(values));
 }

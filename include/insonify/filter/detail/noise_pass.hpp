@@ -12,7 +12,6 @@
 
 #include <concepts>
 #include <cstdint>
-#include <type_traits>
 #include <utility>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -35,7 +34,7 @@ enum class noise_stream : std::uint32_t {
     texture
 };
 
-/// What a filter's draws depend on, besides the pixel.
+/// Key of a filter's draws, besides the pixel.
 struct noise_key {
     philox_key key;
     std::uint32_t frame;
@@ -120,12 +119,10 @@ class noise_pass {
         if constexpr (std::same_as<Channel, float>) {
             for (int i = 0; i < run.count; ++i) to[static_cast<std::size_t>(i) * step] = values[i];
         } else {
-            const auto count = static_cast<std::size_t>(run.count);
-            const std::span<const float> noisy(values, count);
-            if (step == 1) return quantize_row(noisy, std::span<Channel>(to, count));
+            if (step == 1) return quantize_row(values, to, run.count);
             Channel codes[run_length];
-            quantize_row(noisy, std::span<Channel>(codes, count));
-            for (std::size_t i = 0; i < count; ++i) to[i * step] = codes[i];
+            quantize_row(values, codes, run.count);
+            for (int i = 0; i < run.count; ++i) to[static_cast<std::size_t>(i) * step] = codes[i];
         }
     }
 

@@ -23,8 +23,8 @@ INSONIFY_INLINE void add_if(bool wanted, int place, std::uint16_t* places, int& 
 
 /// Draws a number for each pixel of a list.
 ///
-/// `method.template attempt<N>(result, settled, words, parameter, trial)` makes one trial for N pixels and sets the
-/// lanes of `settled` whose result is final; `words` are those of block `method.block(trial)` of each pixel.
+/// `method.template attempt<N>(result, accepted, words, parameter, trial)` makes one trial for N pixels and sets the
+/// lanes of `accepted` whose result is final; `words` are those of block `method.block(trial)` of each pixel.
 template <class Method>
 struct rejection_kernel {
     Method method;
@@ -57,11 +57,11 @@ struct rejection_kernel {
                 philox_lanes<N>(block, noise.key[0], noise.key[1]);
                 doubles given, made;
                 gather<N>(given, [&](int k) { return parameter[place[k]]; });
-                lanes<std::int64_t, N> settled;
-                method.template attempt<N>(made, settled, block, given, trial);
+                lanes<std::int64_t, N> accepted;
+                method.template attempt<N>(made, accepted, block, given, trial);
                 for (int k = 0; k < N && first + k < count; ++k) {
                     result[place[k]] = lane(made, k);
-                    add_if(lane(settled, k) == 0, place[k], places, left);
+                    add_if(lane(accepted, k) == 0, place[k], places, left);
                 }
             }
             count = left;

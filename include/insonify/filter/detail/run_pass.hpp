@@ -17,11 +17,10 @@ namespace detail::inline INSONIFY_FLAGS {
 /// Applies a pass to at most run_length adjacent pixels of a row; `to` may be `from`.
 template <class Pass, class From, class To>
 INSONIFY_INLINE void call_row(Pass& pass, const From* from, To* to, int count, int x, int y) {
-    if constexpr (row_function<Pass, From>) {
+    if constexpr (row_function<Pass, From>)
         pass.row(from, to, count, x, y);
-    } else {
+    else
         for (int i = 0; i < count; ++i) to[i] = call_pixel(pass, from[i], x + i, y);
-    }
 }
 
 /// Passes that need the image's origin and size implement `prepare(area)`; it runs before the first pixel.

@@ -4,7 +4,6 @@
 
 #include <insonify/filter/detail/run_pass.hpp>
 
-#include <concepts>
 #include <type_traits>
 #include <utility>
 
@@ -66,17 +65,15 @@ struct fused {
 
 template <class Pixel, class F, executor E>
 auto make_pass(const F& stage, [[maybe_unused]] image_view<const Pixel> seen, [[maybe_unused]] E& ex) {
-    if constexpr (measured_filter<F, Pixel>) {
-        if constexpr (requires { stage.pass(seen, ex); }) {
+    if constexpr (measured_filter<F, Pixel>)
+        if constexpr (requires { stage.pass(seen, ex); })
             return stage.pass(seen, ex);
-        } else {
+        else
             return stage.pass(seen);
-        }
-    } else if constexpr (requires { stage.pass(); }) {
+    else if constexpr (requires { stage.pass(); })
         return stage.pass();
-    } else {
+    else
         return pass_by_reference<F>{&stage};
-    }
 }
 
 template <class F, class Pixel>
@@ -99,11 +96,10 @@ constexpr bool chain_takes() {
 }
 template <class Pixel, class F, class... Rest>
 constexpr bool chain_takes() {
-    if constexpr (filter_for<F, Pixel>) {
+    if constexpr (filter_for<F, Pixel>)
         return chain_takes<typename filter_result<F, Pixel>::type, Rest...>();
-    } else {
+    else
         return false;
-    }
 }
 
 /// Results go to a new image, or in place where the source is an rvalue of the same pixel type.
