@@ -7,7 +7,6 @@
 #include <insonify/raster/detail/shade.hpp>
 
 #include <bit>
-#include <optional>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -18,8 +17,7 @@ namespace detail::inline INSONIFY_FLAGS {
 
 template <depth_precision Depth>
 void check(const draw_options<Depth>& options, image_view<const float> depth) {
-    require(options.subpixel_bits >= 4 && options.subpixel_bits <= 16, "subpixel_bits", options.subpixel_bits,
-            "4 to 16");
+    require_range("subpixel_bits", options.subpixel_bits, 4, 16, "4 to 16");
     require(options.tile >= 8 && options.tile <= 256 && std::has_single_bit(static_cast<unsigned>(options.tile)),
             "tile", options.tile, "a power of two from 8 to 256");
     // Sub-pixels have 30 bits, columns and rows of tiles 16.

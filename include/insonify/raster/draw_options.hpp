@@ -55,7 +55,7 @@ struct draw_options {
 /// degenerate and not_finite; one that lies outside of the picture and needs no clipping is always counted as missed.
 struct draw_stats {
     std::uint64_t triangles = 0;   ///< submitted
-    std::uint64_t drawn = 0;       ///< reached the pixel loop
+    std::uint64_t drawn = 0;       ///< filled into tiles
     std::uint64_t culled = 0;      ///< faced the wrong way
     std::uint64_t missed = 0;      ///< covered no pixel centre of the picture
     std::uint64_t degenerate = 0;  ///< had no area on the sub-pixel grid

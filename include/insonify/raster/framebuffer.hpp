@@ -1,4 +1,4 @@
-// Render targets of a draw. The type says which attachments there are; nothing is compiled for those that are absent.
+// Render targets of a draw. The type states the attachments; no code is compiled for absent ones.
 #pragma once
 
 #include <insonify/core/image_view.hpp>
@@ -20,7 +20,7 @@ struct framebuffer {
     bool clears_color = false;  ///< whether `depth_load::clear` also sets the color of all pixels to `background`
     Pixel background{};
 };
-/// Depths without colours.
+/// Depth, for fragment shaders that store their results themselves.
 template <>
 struct framebuffer<void> {
     image_view<float> depth;

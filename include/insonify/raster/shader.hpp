@@ -49,7 +49,7 @@ concept varying_shader = requires(const S& shader, const vertex& v) {
     { shader(v).clip } -> std::convertible_to<glm::vec4>;
     requires interpolatable<std::remove_cvref_t<decltype(shader(v).varyings)>>;
 };
-/// Either of the two.
+/// A shader with or without varyings.
 template <class S>
 concept vertex_shader = position_shader<S> || varying_shader<S>;
 
@@ -113,7 +113,7 @@ INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::dvec3&
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// What a vertex shader hands on for interpolation.
+/// The varyings of a vertex shader; no_varyings if it has none.
 template <vertex_shader S>
 using varyings_of = typename detail::shader_varyings<S>::type;
 

@@ -1,6 +1,6 @@
 // Clipped polygons that snapping folds over themselves, against a sum of triangles judged by an exact oracle.
 #include <insonify/core/random.hpp>
-#include <insonify/raster/detail/clip.hpp>
+#include <insonify/raster/detail/screen_polygon.hpp>
 
 #include "../../catch.hpp"
 #include "pixel_space.hpp"

@@ -1,13 +1,14 @@
 // Primitive assembly: from a mesh to triangles on the screen, culled, clipped where needed, and binned.
 //
 // Almost all triangles are compact: 32-bit coordinates, 64-bit edge functions. The others are wide: vertices beyond the
-// compact grid, or pieces of clipped triangles. They go a slower way that stays exact at any distance.
+// compact grid, or pieces of clipped triangles. They take a slower path that is exact at any distance.
 #pragma once
 
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/transpose.hpp>
 #include <insonify/geometry/detail/indices.hpp>
 #include <insonify/raster/detail/binning.hpp>
+#include <insonify/raster/detail/screen_polygon.hpp>
 #include <insonify/raster/detail/screen_triangle.hpp>
 #include <insonify/raster/draw_options.hpp>
 
@@ -259,7 +260,7 @@ struct assembly_kernel {
         out.stats.degenerate += static_cast<unsigned>(std::popcount(degenerate));
         out.stats.culled += static_cast<unsigned>(std::popcount(turned));
         out.stats.drawn += static_cast<unsigned>(std::popcount(drawn));
-        // Mostly all of them touch the same tiles.
+        // All of them usually touch the same tiles.
         const std::int32_t one_first = lane(first_tile, 0), one_last = lane(last_tile, 0);
         if (drawn == all && !any(ints(((first_tile ^ one_first) | (last_tile ^ one_last)) != 0))) {
             out.runs.add(id, N, {static_cast<std::uint32_t>(one_first), static_cast<std::uint32_t>(one_last)}, true);

@@ -11,8 +11,6 @@
 #include <insonify/core/simd/lanes.hpp>
 #include <insonify/raster/detail/setup.hpp>
 
-#include <limits>
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {

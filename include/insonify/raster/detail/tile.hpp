@@ -8,8 +8,6 @@
 #include <insonify/raster/detail/small_fill.hpp>
 #include <insonify/raster/detail/vertices.hpp>
 
-#include <algorithm>
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {

@@ -1,0 +1,107 @@
+// Clipped triangles on the pixel grid, divided into triangles or runs of pixels.
+//
+// Snapping can fold a thin polygon over itself: a vertex that lands on the wrong side of an edge flips one of the
+// triangles that the polygon is divided into, and pixels beside the polygon would be hit. The winding number then
+// decides pixel by pixel, by the same top-left rule.
+#pragma once
+
+#include <insonify/core/detail/int128.hpp>
+#include <insonify/core/rect.hpp>
+#include <insonify/raster/detail/clip.hpp>
+#include <insonify/raster/detail/setup.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// A clipped triangle with snapped corners.
+class screen_polygon {
+  public:
+    screen_polygon(const clip_polygon& polygon, const projection& p) : count_(polygon.count) {
+        for (int i = 0; i < count_; ++i)
+            corners_[static_cast<std::size_t>(i)] = p.to_screen(polygon.corners[static_cast<std::size_t>(i)].position);
+        int128 area;
+        for (int i = 1; i + 1 < count_; ++i) {
+            const int128 part = wide_area(at(0), at(i), at(i + 1));
+            area = area + part;
+            turns_[part.sign() + 1] = true;
+            const int128 size = part.sign() < 0 ? -part : part;
+            if ((size - largest_).sign() > 0) {
+                largest_ = size;
+                largest_part_ = i;
+            }
+        }
+        area_sign_ = area.sign();
+    }
+
+    const screen_vertex& at(int corner) const { return corners_[static_cast<std::size_t>(corner)]; }
+    /// 1 for clockwise on the screen, -1 for counter-clockwise, 0 for no area.
+    int area_sign() const { return area_sign_; }
+
+    /// Calls `part(corners, pixels, is_run)` for disjoint parts of the polygon: triangles of three of its corners; or,
+    /// if it is folded, runs of covered pixels in the plane of three of its corners.
+    template <class Part>
+    void for_each_part(const pixel_grid& grid, const Part& part) const {
+        if (turns_[0] && turns_[2]) return for_each_run(grid, part);
+        for (int i = 1; i + 1 < count_; ++i) {
+            const rect pixels = center_rect(at(0), at(i), at(i + 1), grid);
+            if (!pixels.empty() && wide_area(at(0), at(i), at(i + 1)).sign() != 0)
+                part(std::array<int, 3>{0, i, i + 1}, pixels, false);
+        }
+    }
+
+  private:
+    template <class Part>
+    void for_each_run(const pixel_grid& grid, const Part& part) const {
+        const std::array<int, 3> plane{0, largest_part_, largest_part_ + 1};
+        rect all{grid.width, grid.height, 0, 0};
+        for (int i = 1; i + 1 < count_; ++i) {
+            const rect r = center_rect(at(0), at(i), at(i + 1), grid);
+            if (r.empty()) continue;
+            all = {(std::min)(all.x0, r.x0), (std::min)(all.y0, r.y0), (std::max)(all.x1, r.x1),
+                   (std::max)(all.y1, r.y1)};
+        }
+        for (int y = all.y0; y < all.y1; ++y)
+            for (int x = all.x0; x < all.x1; ++x) {
+                if (winding(x, y, grid) * area_sign_ <= 0) continue;
+                const int first = x;
+                while (x < all.x1 && winding(x, y, grid) * area_sign_ > 0) ++x;
+                part(plane, rect{first, y, x, y + 1}, true);
+            }
+    }
+
+    /// The winding number of the outline around a pixel's centre, clockwise. The fill rule shifts the centre to the
+    /// right by an infinitesimal amount, and downwards by one of second order.
+    int winding(int px, int py, const pixel_grid& grid) const {
+        const std::int64_t x = grid.center(px), y = grid.center(py);
+        int sum = 0;
+        for (int i = 0; i < count_; ++i) {
+            const screen_vertex &from = at(i), &to = at((i + 1) % count_);
+            const bool up = to.y <= y && y < from.y, down = from.y <= y && y < to.y;
+            if (!up && !down) continue;
+            const int side = wide_side(to.x - from.x, to.y - from.y, x - from.x, y - from.y).sign();
+            if (up && side >= 0) ++sum;
+            if (down && side <= 0) --sum;
+        }
+        return sum;
+    }
+
+    std::array<screen_vertex, 3 + clip_polygon::planes> corners_;
+    int count_;
+    bool turns_[3] = {};  ///< whether a part runs counter-clockwise, is degenerate, runs clockwise
+    int128 largest_{};
+    int largest_part_ = 1;
+    int area_sign_ = 0;
+};
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
