@@ -1,4 +1,5 @@
-// The compiled form: pictures and seabeds are compiled once, in a unit of its own, instead of in every unit that draws.
+// The compiled form: pictures, recordings, seabeds and filters are compiled in one unit instead of in every unit that
+// uses them.
 //
 //     #define INSONIFY_IMPLEMENTATION     // in one source file of the program, compiled with -O2
 //     #include <insonify/insonify.hpp>
@@ -6,8 +7,8 @@
 //     #define INSONIFY_COMPILED           // in all others, or -DINSONIFY_COMPILED; CMake: link insonify::compiled
 //     #include <insonify/insonify.hpp>
 //
-// This list is what one defines and the others leave to it. Other shadow policies, laws and seabeds work too: include
-// the header that draws with them (sonar/overhead/render.hpp), and the unit compiles what the list lacks.
+// The lists below say what is compiled once. Other shadow policies, laws and seabeds work too: include the header that
+// draws with them (sonar/overhead/render.hpp), and the unit compiles what the lists lack.
 #pragma once
 
 #include <insonify/config.hpp>
@@ -38,10 +39,10 @@ inline namespace INSONIFY_ABI {
 
 namespace seabed::inline INSONIFY_ONCE {
 
-std::shared_ptr<const detail::model_interface> hold(flat m);
-std::shared_ptr<const detail::model_interface> hold(mud m);
-std::shared_ptr<const detail::model_interface> hold(ripples m);
-std::shared_ptr<const detail::model_interface> hold(rock m);
+#define INSONIFY_SEABEDS(each) each(flat) each(mud) each(ripples) each(rock)
+#define INSONIFY_SEABED(Model) std::shared_ptr<const detail::model_interface> hold(Model m);
+INSONIFY_SEABEDS(INSONIFY_SEABED)
+#undef INSONIFY_SEABED
 
 }  // namespace seabed::inline INSONIFY_ONCE
 
@@ -84,37 +85,23 @@ INSONIFY_FILTERS(INSONIFY_FILTER)
 
 namespace seabed::inline INSONIFY_ONCE {
 
-std::shared_ptr<const detail::model_interface> hold(flat m) {
-    return seabed::hold<flat>(m);
-}
-std::shared_ptr<const detail::model_interface> hold(mud m) {
-    return seabed::hold<mud>(m);
-}
-std::shared_ptr<const detail::model_interface> hold(ripples m) {
-    return seabed::hold<ripples>(m);
-}
-std::shared_ptr<const detail::model_interface> hold(rock m) {
-    return seabed::hold<rock>(m);
-}
+#define INSONIFY_SEABED(Model)                                     \
+    std::shared_ptr<const detail::model_interface> hold(Model m) { \
+        return seabed::hold<Model>(m);                             \
+    }
+INSONIFY_SEABEDS(INSONIFY_SEABED)
+#undef INSONIFY_SEABED
 
 }  // namespace seabed::inline INSONIFY_ONCE
 
 namespace detail::inline INSONIFY_ONCE {
 
-frame<labels> paint(const scene& s, const overhead& rig, built_in<shadow::exact, labels> options, executor_ref ex) {
-    return detail::paint<>(s, rig, options, ex);
-}
-frame<labels> paint(const scene& s, const overhead& rig, built_in<shadow::none, labels> options, executor_ref ex) {
-    return detail::paint<>(s, rig, options, ex);
-}
-frame<no_labels> paint(const scene& s, const overhead& rig, built_in<shadow::exact, no_labels> options,
-                       executor_ref ex) {
-    return detail::paint<>(s, rig, options, ex);
-}
-frame<no_labels> paint(const scene& s, const overhead& rig, built_in<shadow::none, no_labels> options,
-                       executor_ref ex) {
-    return detail::paint<>(s, rig, options, ex);
-}
+#define INSONIFY_PICTURE(Shadow, Labels)                                                                          \
+    frame<Labels> paint(const scene& s, const overhead& rig, built_in<Shadow, Labels> options, executor_ref ex) { \
+        return detail::paint<>(s, rig, options, ex);                                                              \
+    }
+INSONIFY_PICTURES(INSONIFY_PICTURE)
+#undef INSONIFY_PICTURE
 visibility see(const scene& s, const overhead& rig, built_in<shadow::none, labels> options, executor_ref ex) {
     return detail::see<>(s, rig, options, ex);
 }
@@ -126,12 +113,14 @@ visibility see(const scene& s, const overhead& rig, built_in<shadow::none, label
     }
 INSONIFY_RECORDINGS(INSONIFY_RECORDING)
 #undef INSONIFY_RECORDING
-#undef INSONIFY_RECORDINGS
 
 }  // namespace detail::inline INSONIFY_ONCE
 
 #endif
 #undef INSONIFY_FILTERS
+#undef INSONIFY_SEABEDS
+#undef INSONIFY_PICTURES
+#undef INSONIFY_RECORDINGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -87,8 +87,8 @@ struct settings {
         requires(std::same_as<Round, sphere> || std::same_as<Round, hemisphere>)
     INSONIFY_MEMBER Round modelled(Round shape, const pose& placement)
     const {
-        const float longest = (std::max)((std::max)(shape.aspect.x, shape.aspect.y), shape.aspect.z);
-        return with_segments(shape, deviation(placement, static_cast<double>(shape.radius * longest)));
+        return with_segments(shape,
+                             deviation(placement, static_cast<double>(insonify::detail::longest_semi_axis(shape))));
     }
 
   private:
@@ -119,9 +119,9 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     require(tolerated.silhouette > 0, "budget.silhouette", tolerated.silhouette, "pixels above 0");
     require(tolerated.height > 0, "budget.height", tolerated.height, "pixels above 0");
     require(tolerated.intensity > 0, "budget.intensity", tolerated.intensity, "above 0");
-    require(how.chips > 0 && how.chips <= 1024, "probe.chips", how.chips, "1 to 1024");
-    require(how.pixels > 0 && how.pixels <= 2048, "probe.pixels", how.pixels, "1 to 2048");
-    require(how.finest >= 1 && how.finest <= 8, "probe.finest", how.finest, "1 to 8 cells per pixel");
+    detail::require_range("probe.chips", how.chips, 1, 1024, "1 to 1024");
+    detail::require_range("probe.pixels", how.pixels, 1, 2048, "1 to 2048");
+    detail::require_range("probe.finest", how.finest, 1, 8, "1 to 8 cells per pixel");
     require(how.spare > 0 && how.spare <= 1, "probe.spare", how.spare, "above 0 and at most 1");
 
     const overhead_geometry view(rig);
@@ -181,16 +181,16 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     return found;
 }
 
-/// Named settings, by falling error and rising cost; docs/tradeoff.md has both.
+/// A seabed vertex for every four pixels, facets within a pixel. docs/tradeoff.md has error and cost of named settings.
 /// @param rig  of the pictures
 inline settings<> fast(const overhead& rig) {
     return {.cell = 4 * overhead_geometry(rig).ground_sampling(), .side_error = 1, .shadow_error = 1, .rig = rig};
 }
-/// Facets within a quarter of a pixel.
+/// A seabed vertex for every two pixels, facets within a quarter of a pixel.
 inline settings<> balanced(const overhead& rig) {
     return {.cell = 2 * overhead_geometry(rig).ground_sampling(), .side_error = 0.25, .shadow_error = 0.25, .rig = rig};
 }
-/// Four seabed vertices for each pixel, vertices rounded to 1/65536 pixel.
+/// Four seabed vertices for each pixel, facets within 1/50 and vertices rounded to 1/65536 of a pixel.
 inline settings<> exact(const overhead& rig) {
     const double finest = (std::max)(0.5, (std::max)(rig.size.x, rig.size.y) / 32768.0);
     return {.cell = finest * overhead_geometry(rig).ground_sampling(),

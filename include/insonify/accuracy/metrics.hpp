@@ -61,11 +61,7 @@ struct pixel_difference {
 };
 
 }  // namespace accuracy
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
 
-namespace insonify {
-inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 template <class T>
@@ -96,11 +92,7 @@ accuracy::pixel_difference compare_pixels(image_view<const T> result, image_view
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
 
-namespace insonify {
-inline namespace INSONIFY_ABI {
 namespace accuracy {
 
 inline namespace INSONIFY_FLAGS {
@@ -131,7 +123,7 @@ inline mask_difference compare_masks(image_view<const std::uint8_t> result, imag
 inline pixel_difference compare_images(image_view<const float> result, image_view<const float> truth) {
     return detail::compare_pixels(result, truth);
 }
-/// The same of codes of 8 bits.
+/// The same for codes of 8 bits.
 inline pixel_difference compare_images(image_view<const std::uint8_t> result, image_view<const std::uint8_t> truth) {
     return detail::compare_pixels(result, truth);
 }

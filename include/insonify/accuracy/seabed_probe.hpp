@@ -36,11 +36,7 @@ struct probe {
 }  // namespace INSONIFY_FLAGS
 
 }  // namespace accuracy
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
 
-namespace insonify {
-inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// Small pictures of a seabed with their ground truth.

@@ -12,7 +12,7 @@ inline namespace INSONIFY_ABI {
 
 /// The material of a surface.
 struct material {
-    float reflectivity = 0.5f;  ///< relative, 0 to 1 and above
+    float reflectivity = 0.5f;  ///< relative, 0 or more
 };
 
 /// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear. A law
@@ -67,10 +67,9 @@ inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a value out of its range
 inline void validate(const facet_backscatter& f) {
-    using detail::require;
-    require(f.facets >= 0 && numeric::is_finite(f.facets), "facet_backscatter.facets", f.facets, "0 or more");
-    require(f.slope > 0 && numeric::is_finite(f.slope), "facet_backscatter.slope", f.slope, "above 0");
-    require(f.volume >= 0 && numeric::is_finite(f.volume), "facet_backscatter.volume", f.volume, "0 or more");
+    detail::require_not_negative("facet_backscatter.facets", f.facets);
+    detail::require(f.slope > 0 && numeric::is_finite(f.slope), "facet_backscatter.slope", f.slope, "above 0");
+    detail::require_not_negative("facet_backscatter.volume", f.volume);
 }
 
 }  // namespace INSONIFY_FLAGS

@@ -1,6 +1,6 @@
 // Spatial variation of the seabed's backscatter: drift, streaks, and patches of another sediment.
 //
-// A survey line over "one" bottom is not one gray: grain size, shell and cover change over metres to hundreds of metres
+// Even one kind of bottom is not uniformly gray: grain size, shell and cover change over metres to hundreds of metres
 // (T. K. Stanton. Sonar Estimates of Seafloor Microroughness. JASA 75, 1984; J. A. Goff and others. Correlation of
 // sidescan backscatter with grain size distribution of surficial seabed sediments. Marine Geology 205, 2004), and
 // currents sort it into streaks along the flow. Levels are a function of (seed, position), so a bottom that is seen
@@ -39,29 +39,18 @@ struct bottom_tone {
 namespace detail::inline INSONIFY_FLAGS {
 
 inline void validate(const bottom_tone& t) {
-    const auto level = [](const char* name, float v) { require(v >= 0 && v <= 30, name, v, "0 to 30 dB"); };
-    const auto length = [](const char* name, float v) {
-        require(v >= 1e-4f && v <= 1e9f, name, v, "1e-4 to 1e9 metres");
-    };
+    const auto level = [](const char* name, float v) { require_range(name, v, 0, 30, "0 to 30 dB"); };
+    const auto length = [](const char* name, float v) { require_range(name, v, 1e-4f, 1e9f, "1e-4 to 1e9 metres"); };
     level("bottom_tone.drift", t.drift);
     level("bottom_tone.streaks", t.streaks);
     length("bottom_tone.drift_length", t.drift_length);
     length("bottom_tone.streak_width", t.streak_width);
     length("bottom_tone.streak_length", t.streak_length);
     length("bottom_tone.patch_size", t.patch_size);
-    require(t.octaves >= 1 && t.octaves <= 8, "bottom_tone.octaves", t.octaves, "1 to 8");
+    require_range("bottom_tone.octaves", t.octaves, 1, 8, "1 to 8");
     require(numeric::is_finite(t.direction), "bottom_tone.direction", t.direction, "a finite angle");
-    require(t.patches >= -30 && t.patches <= 30, "bottom_tone.patches", t.patches, "-30 to 30 dB");
-    require(t.patch_share >= 0.01f && t.patch_share <= 0.99f, "bottom_tone.patch_share", t.patch_share, "0.01 to 0.99");
-}
-
-/// Quantile of the standard normal distribution, to 5e-4 (C. Hastings. Approximations for Digital Computers,
-/// 1955, sheet 67).
-inline double normal_quantile(double share) {
-    const double tail = share < 0.5 ? share : 1 - share, t = numeric::square_root(-2 * numeric::log(tail));
-    const double z =
-        t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
-    return share < 0.5 ? -z : z;
+    require_range("bottom_tone.patches", t.patches, -30, 30, "-30 to 30 dB");
+    require_range("bottom_tone.patch_share", t.patch_share, 0.01f, 0.99f, "0.01 to 0.99");
 }
 
 /// Evaluates a tone.
@@ -75,7 +64,7 @@ class tone_sampler {
         double squares = 0, share = 1;
         for (int i = 0; i < t.octaves; ++i, share *= 0.5) squares += share * share;
         scale_ = static_cast<double>(t.drift) / numeric::square_root(squares);
-        threshold_ = normal_quantile(1 - static_cast<double>(t.patch_share));
+        threshold_ = numeric::normal_quantile(1 - static_cast<double>(t.patch_share));
     }
 
     /// @returns decibels
@@ -119,8 +108,7 @@ inline namespace INSONIFY_FLAGS {
 /// The level that a tone adds at a position, decibels.
 /// @throws invalid_input for a parameter out of its range, or a position that is not finite
 inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
-    detail::require_finite("position.x", position.x);
-    detail::require_finite("position.y", position.y);
+    detail::require_finite("position", position);
     return detail::tone_sampler(tone)(position);
 }
 

@@ -86,8 +86,8 @@ struct automatic_display {
         detail::require(
             scale == display_scale::power || scale == display_scale::amplitude || scale == display_scale::decibels,
             "automatic_display.scale", static_cast<int>(scale), "power, amplitude or decibels");
-        detail::require(black >= 0 && black <= 0.49f, "automatic_display.black", black, "0 to 0.49");
-        detail::require(white >= 0 && white <= 0.49f, "automatic_display.white", white, "0 to 0.49");
+        detail::require_range("automatic_display.black", black, 0, 0.49f, "0 to 0.49");
+        detail::require_range("automatic_display.white", white, 0, 0.49f, "0 to 0.49");
         std::vector<float> values;
         values.reserve(picture.size());
         for (int y = 0; y < picture.height(); ++y)

@@ -39,6 +39,18 @@ struct frame {
     ping_numbers rows;
 };
 
+namespace detail::inline INSONIFY_FLAGS {
+
+/// Calls `fn` with the pictures of all frames, then, if they have labels, with each of their images of labels.
+template <class Fn, class... Frames>
+void for_each_image(const Fn& fn, Frames&... frames) {
+    fn(frames.image...);
+    if constexpr ((requires { frames.labels.instance; } && ...))
+        fn(frames.labels.instance...), fn(frames.labels.shadow...), fn(frames.labels.seabed...);
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -38,7 +38,7 @@ inline shadow::any_light light_of(const overhead& rig) {
 
 }  // namespace INSONIFY_FLAGS
 
-/// Light on points, and the casters of their shadows.
+/// Fraction of the light that reaches points, and the casters of their shadows.
 struct point_light_shares {
     std::vector<float> lit;             ///< 0 to 1
     std::vector<std::uint16_t> shadow;  ///< as in labels::shadow: 0, an instance, or labels::by_seabed
@@ -96,16 +96,14 @@ class scene_occlusion {
                         "occlusion_bounds.box.size()", size.x + size.y + size.z, "that of a box around the points");
         detail::require(within.cell >= 0 && numeric::is_finite(within.cell), "occlusion_bounds.cell", within.cell,
                         "0 metres or more");
-        detail::require(within.reach >= 0 && numeric::is_finite(within.reach), "occlusion_bounds.reach", within.reach,
-                        "0 or more");
+        detail::require_not_negative("occlusion_bounds.reach", within.reach);
     }
     static void require_light(const shadow::any_light& light) {
         if (const auto* parallel = std::get_if<shadow::directional_light>(&light)) {
             static_cast<void>(shadow::light_frame(*parallel));
             return;
         }
-        for (int i = 0; i < 3; ++i)
-            detail::require_finite("point_light.position", std::get<shadow::point_light>(light).position[i]);
+        detail::require_finite("point_light.position", std::get<shadow::point_light>(light).position);
     }
     affine around_centre(affine to_world) const {
         to_world.offset -= glm::dvec3(centre_.x, centre_.y, 0);
@@ -141,8 +139,8 @@ class scene_occlusion {
         for (const target& t : s.targets) all.push_back({t.shape, around_centre(to_world(t.placement))});
         if (s.seabed.empty()) return all;
         seabed::detail::require_finite(s.seabed.prepare().range());
-        const auto [first, last] = casting_part(s, light, within, radius);
-        seabed::grid grid = seabed::grid_over(first, last, cell_of(within));
+        const detail::ground_rect ground = casting_ground(s, light, within, radius);
+        seabed::grid grid = seabed::grid_over(ground.lower, ground.upper, cell_of(within));
         grid.band_limited = true;
         const seabed::heightfield field = seabed::sample(s.seabed, grid, ex);
         all.push_back({seabed::tessellate(field, ex), around_centre({glm::dmat3(1), glm::dvec3(field.origin, 0)})});
@@ -150,13 +148,13 @@ class scene_occlusion {
     }
 
     /// The ground below the box, and towards the light as far as the seabed may reach into a ray.
-    static std::pair<glm::dvec2, glm::dvec2> casting_part(const scene& s, const shadow::any_light& light,
-                                                          const occlusion_bounds& within, double radius) {
+    static detail::ground_rect casting_ground(const scene& s, const shadow::any_light& light,
+                                              const occlusion_bounds& within, double radius) {
         const glm::dvec2 lower(within.box.lower), upper(within.box.upper);
-        std::pair<glm::dvec2, glm::dvec2> part{lower - cell_of(within), upper + cell_of(within)};
+        detail::ground_rect ground{lower - cell_of(within), upper + cell_of(within)};
         const double longest = within.reach * longer_side(within);
         const double highest = s.seabed.prepare().range().highest, rise = highest - within.box.lower.z;
-        if (!(rise > 0)) return part;
+        if (!(rise > 0)) return ground;
         for (int corner = 0; corner < 4; ++corner) {
             const glm::dvec2 from((corner & 1) != 0 ? upper.x : lower.x, (corner & 2) != 0 ? upper.y : lower.y);
             glm::dvec2 way;
@@ -171,13 +169,9 @@ class scene_occlusion {
             const double length = numeric::square_root(way.x * way.x + way.y * way.y);
             const double wider = length + radius * (length * length / rise + rise);
             const double aside = (std::min)(longest, wider) - (std::min)(longest, length);
-            const glm::dvec2 end = from + (length > longest ? longest / length : 1.0) * way;
-            for (int axis = 0; axis < 2; ++axis) {
-                part.first[axis] = (std::min)(part.first[axis], end[axis] - aside);
-                part.second[axis] = (std::max)(part.second[axis], end[axis] + aside);
-            }
+            ground.include(from + (length > longest ? longest / length : 1.0) * way, aside);
         }
-        return part;
+        return ground;
     }
 
     glm::dvec3 centre_;

@@ -7,7 +7,6 @@
 #include <insonify/seabed/flat.hpp>
 #include <insonify/sonar/sediment.hpp>
 
-#include <array>
 #include <limits>
 #include <string>
 #include <utility>

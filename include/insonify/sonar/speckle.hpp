@@ -60,19 +60,18 @@ INSONIFY_FUNCTION image<float> speckled(image_view<const float> mean, image_view
 namespace detail::inline INSONIFY_FLAGS {
 
 inline void validate(const speckle_law& law) {
-    require(law.looks >= 1 && law.looks <= 64, "speckle_law.looks", law.looks, "1 to 64");
+    require_range("speckle_law.looks", law.looks, 1, 64, "1 to 64");
     require(law.texture == 0 || (law.texture >= 0.01f && numeric::is_finite(law.texture)), "speckle_law.texture",
             law.texture, "0, or at least 0.01");
-    require(law.steady >= 0 && numeric::is_finite(law.steady), "speckle_law.steady", law.steady, "0 or more");
+    require_not_negative("speckle_law.steady", law.steady);
 }
 
 /// The law of each label.
 /// @throws invalid_input for a parameter out of its range
 inline speckle_laws resolved_laws(const seabed_speckle& s) {
-    require(s.along_track >= 0 && s.along_track <= 16, "seabed_speckle.along_track", s.along_track, "0 to 16");
-    require(s.across_track >= 0 && s.across_track <= 16, "seabed_speckle.across_track", s.across_track, "0 to 16");
-    require(s.texture_length >= 1 && s.texture_length <= 1024, "seabed_speckle.texture_length", s.texture_length,
-            "1 to 1024");
+    require_range("seabed_speckle.along_track", s.along_track, 0, 16, "0 to 16");
+    require_range("seabed_speckle.across_track", s.across_track, 0, 16, "0 to 16");
+    require_range("seabed_speckle.texture_length", s.texture_length, 1, 1024, "1 to 1024");
     speckle_laws laws = s.bottom;
     for (speckle_law& law : laws)
         if (law.looks == looks_by_seabed_model) law = s.elsewhere;

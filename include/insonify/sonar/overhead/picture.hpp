@@ -81,11 +81,12 @@ namespace detail::inline INSONIFY_ONCE {
 template <class Shadow, class Labels>
 using built_in = const render_options<Shadow, Labels>&;
 
-frame<labels> paint(const scene& s, const overhead& rig, built_in<shadow::exact, labels> options, executor_ref ex);
-frame<labels> paint(const scene& s, const overhead& rig, built_in<shadow::none, labels> options, executor_ref ex);
-frame<no_labels> paint(const scene& s, const overhead& rig, built_in<shadow::exact, no_labels> options,
-                       executor_ref ex);
-frame<no_labels> paint(const scene& s, const overhead& rig, built_in<shadow::none, no_labels> options, executor_ref ex);
+#define INSONIFY_PICTURES(each) \
+    each(shadow::exact, labels) each(shadow::none, labels) each(shadow::exact, no_labels) each(shadow::none, no_labels)
+#define INSONIFY_PICTURE(Shadow, Labels) \
+    frame<Labels> paint(const scene& s, const overhead& rig, built_in<Shadow, Labels> options, executor_ref ex);
+INSONIFY_PICTURES(INSONIFY_PICTURE)
+#undef INSONIFY_PICTURE
 visibility see(const scene& s, const overhead& rig, built_in<shadow::none, labels> options, executor_ref ex);
 
 }  // namespace detail::inline INSONIFY_ONCE

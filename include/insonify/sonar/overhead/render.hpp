@@ -3,16 +3,17 @@
 
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/raster/draw.hpp>
-#include <insonify/seabed/sample.hpp>
-#include <insonify/seabed/tessellate.hpp>
 #include <insonify/shadow/exact.hpp>
 #include <insonify/sonar/detail/checked_materials.hpp>
+#include <insonify/sonar/overhead/detail/sampled_bottom.hpp>
 #include <insonify/sonar/overhead/detail/seabed_reach.hpp>
 #include <insonify/sonar/overhead/detail/shadow_pass.hpp>
 #include <insonify/sonar/overhead/picture.hpp>
 
 #include <algorithm>
-#include <optional>
+#include <limits>
+#include <utility>
+#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -32,7 +33,7 @@ class overhead_painter {
         out_.rows.step = 0;
         // The first draw clears it.
         out_.image = image<float>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
-        require(options.reach >= 0 && numeric::is_finite(options.reach), "reach", options.reach, "0 or more");
+        require_not_negative("reach", options.reach);
         if constexpr (labelled) out_.labels = labels(s, rig.size.x, rig.size.y, ex);
         for (const target& t : s.targets)
             targets_.push_back(
@@ -99,69 +100,19 @@ class overhead_painter {
         seabed::height_range range = merge(scene_.seabed.prepare().range(), {0, 0});
         seabed::detail::require_finite(range);
         const double longest = static_cast<double>(options_.reach) * longer_side;
-        ground_area ground = shown_ground(view_, range);
+        ground_rect ground = shown_ground(view_, range);
         if constexpr (casts) ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
-        field_ = seabed::sample(scene_.seabed, grid_under(ground, spacing), ex);
-        out_.stats.seabed_samples = field_.heights.size();
+        bottom_.sample(scene_.seabed, rig.position, ground, spacing, ex);
+        const image<float>& heights = bottom_.field().heights;
+        out_.stats.seabed_samples = heights.size();
         out_.stats.cell = spacing;
-        seabed::detail::tessellate_into(bottom_, field_, ex, bottom_first_);
-        for (const float height : field_.heights.pixels()) {
-            if (!numeric::is_finite(height)) {
-                has_gaps_ = true;
-                continue;
-            }
-            lowest_ = (std::min)(lowest_, height);
-            highest_ = (std::max)(highest_, height);
-        }
-        find_bottom_grid();
-        out_.stats.seabed_columns = field_.heights.width();
-        out_.stats.seabed_rows = field_.heights.height();
-    }
-
-    /// The lattice of the bottom's vertices, if none is missing and float holds their coordinates to 2^-12 steps.
-    void find_bottom_grid() {
-        const glm::ivec2 size(field_.heights.width(), field_.heights.height());
-        const glm::ivec2 last = bottom_first_ + size;
-        const int farthest = (std::max)((std::max)(-bottom_first_.x, last.x), (std::max)(-bottom_first_.y, last.y));
-        if (has_gaps_ || farthest >= 1 << 11) return;
-        bottom_grid_ = regular_grid{.columns = size.x,
-                                    .rows = size.y,
-                                    .origin = field_.spacing * glm::dvec2(bottom_first_),
-                                    .right = {field_.spacing, 0},
-                                    .up = {0, field_.spacing},
-                                    .off = 0x1p-23 * farthest};  // rounded to float, in either direction
-    }
-
-    /// The multiples of the spacing over a part of the ground, counted from the rig's position: the position of a
-    /// vertex depends neither on the extent that is sampled nor on the distance to the world's origin.
-    seabed::grid grid_under(const ground_area& ground, double spacing) {
-        seabed::grid grid{.origin = view_.rig().position, .spacing = spacing, .band_limited = true};
-        const auto along = [&](int axis) {
-            const double first = static_cast<double>(numeric::floor_to_int(ground.first[axis] / spacing + 1e-6));
-            const double count = 1 - static_cast<double>(numeric::floor_to_int(-ground.last[axis] / spacing)) - first;
-            require(count <= 1 << 20, "vertices of the seabed along an axis", count, "at most 2^20: less `reach`");
-            bottom_first_[axis] = static_cast<int>(first);
-            return static_cast<int>((std::max)(2.0, count));
-        };
-        grid.width = along(0);
-        grid.height = along(1);
-        grid.first = bottom_first_;
-        return grid;
-    }
-
-    placed_mesh bottom_in_rig() const {
-        const affine under_rig = view_.rig_from({glm::dmat3(1), glm::dvec3(view_.rig().position, 0)});
-        const glm::ivec2 last = bottom_first_ + glm::ivec2(field_.heights.width() - 1, field_.heights.height() - 1);
-        return {bottom_,
-                {{field_.spacing * glm::dvec2(bottom_first_), lowest_}, {field_.spacing * glm::dvec2(last), highest_}},
-                under_rig,
-                has_gaps_ ? surface_kind::open : surface_kind::heightfield,
-                bottom_grid_ ? &*bottom_grid_ : nullptr};
+        out_.stats.seabed_columns = heights.width();
+        out_.stats.seabed_rows = heights.height();
     }
 
     /// A box around everything that the picture may show.
     bounding_box receivers() const {
-        double low = static_cast<double>(lowest_), top = static_cast<double>(highest_);
+        double low = static_cast<double>(bottom_.lowest()), top = static_cast<double>(bottom_.highest());
         if (!has_bottom()) {
             low = (std::numeric_limits<double>::max)();
             top = -low;
@@ -195,11 +146,12 @@ class overhead_painter {
             require(ids < shadow::invalid_id, "triangles of the scene", ids, "below 2^32 - 1");
         };
         if (has_bottom()) {
-            bottom_in_rig_ = bottom_in_rig();
+            bottom_in_rig_ = bottom_.placed_under(view_);
+            const seabed::heightfield& field = bottom_.field();
             add(bottom_in_rig_, static_cast<std::uint32_t>(targets_.size()), labels::no_instance,
-                static_cast<std::uint8_t>(field_.fallback), materials_[seabed::index_of(field_.fallback)]);
-            if (!field_.types.empty()) {
-                surfaces_.back().types = field_.types.pixels().data();
+                static_cast<std::uint8_t>(field.fallback), materials_[seabed::index_of(field.fallback)]);
+            if (!field.types.empty()) {
+                surfaces_.back().types = field.types.pixels().data();
                 surfaces_.back().materials = materials_.data();
             }
         }
@@ -280,14 +232,9 @@ class overhead_painter {
     image<std::uint32_t> ids_;  ///< the visibility buffer; triangles are numbered in the order of surfaces_
     undecided_light undecided_;
     frame<Labels> out_;
-    seabed::heightfield field_;
-    uninitialized_mesh bottom_;
-    glm::ivec2 bottom_first_{0, 0};   ///< lattice coordinates of the first vertex, from the rig's position
-    float lowest_ = 0, highest_ = 0;  ///< of the bottom's vertices and the datum
+    sampled_bottom bottom_;
     placed_mesh bottom_in_rig_;
     std::vector<surface> surfaces_;
-    bool has_gaps_ = false;  ///< some vertices of the bottom have no data
-    std::optional<regular_grid> bottom_grid_;
     std::vector<placed_mesh> targets_;
 };
 

@@ -39,22 +39,21 @@ inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a value out of range
 inline void validate(const overhead& rig) {
-    using detail::require;
-    detail::require_finite("overhead.position.x", rig.position.x);
-    detail::require_finite("overhead.position.y", rig.position.y);
+    using detail::require, detail::require_not_negative, detail::require_range;
+    detail::require_finite("overhead.position", rig.position);
     require(rig.altitude > 0 && numeric::is_finite(rig.altitude), "overhead.altitude", rig.altitude, "above 0");
     require(numeric::is_finite(rig.yaw), "overhead.yaw", rig.yaw, "a finite angle");
     require(rig.field_of_view > 0 && static_cast<double>(rig.field_of_view) < numeric::to_radians(179.9),
             "overhead.field_of_view", rig.field_of_view, "above 0 and below 179.9 degrees, in radians");
-    require(rig.size.x > 0 && rig.size.x <= 32768, "overhead.size.x", rig.size.x, "1 to 32768");
-    require(rig.size.y > 0 && rig.size.y <= 32768, "overhead.size.y", rig.size.y, "1 to 32768");
+    require_range("overhead.size.x", rig.size.x, 1, 32768, "1 to 32768");
+    require_range("overhead.size.y", rig.size.y, 1, 32768, "1 to 32768");
     require(rig.grazing > 0 && static_cast<double>(rig.grazing) <= numeric::pi / 2 + 1e-6, "overhead.grazing",
             rig.grazing, "above 0 and at most pi / 2");
     require(numeric::is_finite(rig.light_azimuth), "overhead.light_azimuth", rig.light_azimuth, "a finite angle");
     require(rig.light_distance > 0, "overhead.light_distance", rig.light_distance, "above 0 metres");
-    require(rig.intensity >= 0 && numeric::is_finite(rig.intensity), "overhead.intensity", rig.intensity, "0 or more");
-    require(rig.sky >= 0 && numeric::is_finite(rig.sky), "overhead.sky", rig.sky, "0 or more");
-    require(rig.ambient >= 0 && numeric::is_finite(rig.ambient), "overhead.ambient", rig.ambient, "0 or more");
+    require_not_negative("overhead.intensity", rig.intensity);
+    require_not_negative("overhead.sky", rig.sky);
+    require_not_negative("overhead.ambient", rig.ambient);
 }
 
 /// The projection and the light of a rig. Everything is drawn in the rig's frame (origin on the datum below the camera,

@@ -23,10 +23,10 @@ inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 inline void check_decibels(const char* name, float value) {
-    require(value >= 0 && value <= 60, name, value, "0 to 60 dB");
+    require_range(name, value, 0, 60, "0 to 60 dB");
 }
 inline void check_length(const char* name, float value) {
-    require(value >= 1 && value <= 1e9f, name, value, "1 to 1e9 pixels");
+    require_range(name, value, 1, 1e9f, "1 to 1e9 pixels");
 }
 
 /// Multiplies pixels by a factor that depends on the column alone, computed once for each column.
@@ -45,7 +45,7 @@ class column_gain {
     std::vector<float> factors_;
 };
 
-/// Of a ping_banding.
+/// Pass of a ping_banding.
 template <class Banding>
 class banding_law {
   public:
@@ -89,7 +89,7 @@ struct range_gain_error {
     INSONIFY_TAGGED auto pass(image_view<const float> picture) const {
         detail::check_decibels("range_gain_error.rms", rms);
         detail::check_length("range_gain_error.length", length);
-        detail::require(slope >= -60 && slope <= 60, "range_gain_error.slope", slope, "-60 to 60 dB");
+        detail::require_range("range_gain_error.slope", slope, -60, 60, "-60 to 60 dB");
         const int width = picture.width();
         const philox_key key = stream_key(seed, static_cast<std::uint32_t>(detail::drift_stream::range_gain));
         return detail::column_gain(width, [&](int x) {

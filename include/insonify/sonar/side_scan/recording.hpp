@@ -47,7 +47,7 @@ struct erased_options {
     const Law& law;
     const equation_interface& equation;
     double cell;
-    int margin;  ///< pings at either end of the track that only the beam needs; the result has no rows for them
+    int margin;  ///< pings at either end of the track that the beam needs; they get no rows in the result
 };
 
 }  // namespace detail

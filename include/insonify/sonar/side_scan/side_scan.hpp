@@ -2,6 +2,7 @@
 #pragma once
 
 #include <insonify/core/numeric.hpp>
+#include <insonify/geometry/transform.hpp>
 
 #include <cstdint>
 #include <vector>
@@ -35,9 +36,7 @@ inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a value out of range
 inline void validate(const ping& p) {
-    detail::require_finite("ping.position.x", p.position.x);
-    detail::require_finite("ping.position.y", p.position.y);
-    detail::require_finite("ping.position.z", p.position.z);
+    detail::require_finite("ping.position", p.position);
     detail::require_finite("ping.yaw", p.yaw);
     detail::require(numeric::abs(p.pitch) <= numeric::to_radians(80), "ping.pitch", p.pitch,
                     "at most 80 degrees, in radians");
@@ -80,19 +79,17 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input for a value out of range
 template <across_track Axis>
 void validate(const side_scan_rig<Axis>& rig) {
-    using detail::require;
-    detail::require_finite("side_scan.position.x", rig.position.x);
-    detail::require_finite("side_scan.position.y", rig.position.y);
+    using detail::require, detail::require_range;
+    detail::require_finite("side_scan.position", rig.position);
     detail::require_finite("side_scan.altitude", rig.altitude);
     detail::require_finite("side_scan.yaw", rig.yaw);
     require(rig.ping_spacing > 0 && numeric::is_finite(rig.ping_spacing), "side_scan.ping_spacing", rig.ping_spacing,
             "above 0");
-    require(rig.pings >= 1 && rig.pings <= 1 << 20, "side_scan.pings", rig.pings, "1 to 2^20");
-    require(rig.first_range >= 0 && numeric::is_finite(rig.first_range), "side_scan.first_range", rig.first_range,
-            "0 or more");
+    require_range("side_scan.pings", rig.pings, 1, 1 << 20, "1 to 2^20");
+    detail::require_not_negative("side_scan.first_range", rig.first_range);
     require(rig.range > rig.first_range && rig.range <= 1e5f, "side_scan.range", rig.range,
             "above first_range and at most 10^5 metres");
-    require(rig.bins >= 1 && rig.bins <= 1 << 20, "side_scan.bins", rig.bins, "1 to 2^20");
+    require_range("side_scan.bins", rig.bins, 1, 1 << 20, "1 to 2^20");
     require(rig.side == side::port || rig.side == side::starboard, "side_scan.side", static_cast<int>(rig.side),
             "port or starboard");
 }

@@ -136,33 +136,29 @@ inline namespace INSONIFY_FLAGS {
 // out of range.
 
 inline void validate(const source_level& s) {
-    detail::require(s.decibels >= -300 && s.decibels <= 300, "source_level.decibels", s.decibels, "-300 to 300 dB");
+    detail::require_range("source_level.decibels", s.decibels, -300, 300, "-300 to 300 dB");
 }
 inline void validate(const absorption& a) {
-    detail::require(a.decibels_per_km >= 0 && a.decibels_per_km <= 3000, "absorption.decibels_per_km",
-                    a.decibels_per_km, "0 to 3000 dB");
+    detail::require_range("absorption.decibels_per_km", a.decibels_per_km, 0, 3000, "0 to 3000 dB");
 }
 inline void validate(const vertical_beam& b) {
     detail::require(b.width > 0 && numeric::is_finite(b.width), "vertical_beam.width", b.width, "radians above 0");
     detail::require_finite("vertical_beam.tilt", b.tilt);
-    detail::require(b.side_lobes >= 0 && numeric::is_finite(b.side_lobes), "vertical_beam.side_lobes", b.side_lobes,
-                    "0 or more");
+    detail::require_not_negative("vertical_beam.side_lobes", b.side_lobes);
 }
 inline void validate(const horizontal_beam& b) {
     detail::require(b.width > 0 && numeric::is_finite(b.width), "horizontal_beam.width", b.width, "radians above 0");
 }
 inline void validate(const pulse& p) {
-    detail::require(p.length >= 0 && p.length <= 1e5f, "pulse.length", p.length, "0 to 10^5 metres");
+    detail::require_range("pulse.length", p.length, 0, 1e5f, "0 to 10^5 metres");
 }
 inline void validate(const noise_floor& n) {
-    detail::require(n.intensity >= 0 && numeric::is_finite(n.intensity), "noise_floor.intensity", n.intensity,
-                    "0 or more");
+    detail::require_not_negative("noise_floor.intensity", n.intensity);
 }
 inline void validate(const time_varied_gain& g) {
-    detail::require(g.spreading >= 0 && g.spreading <= 60, "time_varied_gain.spreading", g.spreading, "0 to 60 dB");
-    detail::require(g.absorption_per_km >= 0 && g.absorption_per_km <= 3000, "time_varied_gain.absorption_per_km",
-                    g.absorption_per_km, "0 to 3000 dB");
-    detail::require(g.decibels >= -300 && g.decibels <= 300, "time_varied_gain.decibels", g.decibels, "-300 to 300 dB");
+    detail::require_range("time_varied_gain.spreading", g.spreading, 0, 60, "0 to 60 dB");
+    detail::require_range("time_varied_gain.absorption_per_km", g.absorption_per_km, 0, 3000, "0 to 3000 dB");
+    detail::require_range("time_varied_gain.decibels", g.decibels, -300, 300, "-300 to 300 dB");
 }
 inline void validate(const level_gain& g) {
     detail::require(g.steepest > 0 && static_cast<double>(g.steepest) < numeric::pi / 2, "level_gain.steepest",
@@ -209,8 +205,6 @@ template <equation_part... Parts>
 class sonar_equation {
   public:
     static constexpr bool has_ranges = (detail::range_part<Parts> || ...) || (detail::footprint_part<Parts> || ...);
-    static constexpr bool has_beam = (detail::footprint_part<Parts> || ...);
-    static constexpr bool has_pulse = (detail::pulse_part<Parts> || ...);
     static constexpr bool has_noise = (detail::noise_part<Parts> || ...);
     static constexpr bool has_gain = (detail::gain_part<Parts> || ...);
     static_assert((int{detail::footprint_part<Parts>} + ... + 0) <= 1, "a sonar has one horizontal beam");

@@ -38,11 +38,8 @@ frame<Labels> upside_down(frame<Labels> r) {
             std::swap_ranges(picture.row(y).begin(), picture.row(y).end(),
                              picture.row(picture.height() - 1 - y).begin());
     };
-    flip(r.image);
-    if constexpr (std::is_same_v<Labels, labels>) {
-        flip(r.labels.instance), flip(r.labels.shadow), flip(r.labels.seabed);
-        measure_targets(r.labels);
-    }
+    detail::for_each_image(flip, r);
+    if constexpr (std::is_same_v<Labels, labels>) measure_targets(r.labels);
     r.rows.first += static_cast<std::int64_t>(r.image.height() - 1) * r.rows.step;
     r.rows.step = -r.rows.step;
     return r;
@@ -70,15 +67,13 @@ image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill
 template <class Labels>
 frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboard) {
     frame<Labels> out;
-    out.image = beside(mirrored(port.image), starboard.image);
+    const auto join = [](auto& both, const auto& left, const auto& right) { both = beside(mirrored(left), right); };
+    detail::for_each_image(join, out, port, starboard);
     out.stats = port.stats;
     out.stats.seabed_samples += starboard.stats.seabed_samples;
     out.rows = starboard.rows;
     out.rows.port_columns = port.image.width();
     if constexpr (std::is_same_v<Labels, labels>) {
-        out.labels.instance = beside(mirrored(port.labels.instance), starboard.labels.instance);
-        out.labels.shadow = beside(mirrored(port.labels.shadow), starboard.labels.shadow);
-        out.labels.seabed = beside(mirrored(port.labels.seabed), starboard.labels.seabed);
         out.labels.targets = starboard.labels.targets;
         out.labels.legend = starboard.labels.legend;
         measure_targets(out.labels);

@@ -21,7 +21,7 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Of a water_column.
+/// Pass of a water_column.
 template <class Water>
 class water_law {
   public:
@@ -90,26 +90,22 @@ struct water_column {
 
     /// @throws invalid_input for a parameter out of its range
     INSONIFY_TAGGED auto pass(image_view<const float> picture) const {
-        using detail::require;
-        const auto at_least_0 = [](const char* name, float v) {
-            require(v >= 0 && numeric::is_finite(v), name, v, "0 or more");
-        };
+        using detail::require_not_negative, detail::require_range;
         const auto above_0 = [](const char* name, float v) {
-            require(v > 0 && numeric::is_finite(v), name, v, "above 0");
+            detail::require(v > 0 && numeric::is_finite(v), name, v, "above 0");
         };
-        at_least_0("water_column.first_range", first_range);
+        require_not_negative("water_column.first_range", first_range);
         above_0("water_column.bin", bin);
-        at_least_0("water_column.noise", noise);
+        require_not_negative("water_column.noise", noise);
         above_0("water_column.noise_range", noise_range);
-        require(spreading >= 0 && spreading <= 60, "water_column.spreading", spreading, "0 to 60 dB");
-        require(absorption_per_km >= 0 && absorption_per_km <= 3000, "water_column.absorption_per_km",
-                absorption_per_km, "0 to 3000 dB");
-        at_least_0("water_column.volume", volume);
-        at_least_0("water_column.surface", surface);
+        require_range("water_column.spreading", spreading, 0, 60, "0 to 60 dB");
+        require_range("water_column.absorption_per_km", absorption_per_km, 0, 3000, "0 to 3000 dB");
+        require_not_negative("water_column.volume", volume);
+        require_not_negative("water_column.surface", surface);
         above_0("water_column.surface_range", surface_range);
         above_0("water_column.surface_tail", surface_tail);
-        at_least_0("water_column.waves", waves);
-        require(wave_length >= 1 && wave_length <= 1e9f, "water_column.wave_length", wave_length, "1 to 1e9 pings");
+        require_not_negative("water_column.waves", waves);
+        require_range("water_column.wave_length", wave_length, 1, 1e9f, "1 to 1e9 pings");
         return detail::water_law<water_column>(*this, picture.width());
     }
 };

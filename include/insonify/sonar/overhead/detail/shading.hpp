@@ -84,9 +84,9 @@ struct shaded_images {
     image<float>& picture;
     undecided_light* undecided = nullptr;    ///< if there is a shadow policy
     image<std::uint32_t>* ids = nullptr;     ///< the visibility buffer
-    bool has_all_ids = true;                 ///< or else those alone where light is undecided
+    bool has_all_ids = true;                 ///< false: ids are stored only where light is undecided
     image<std::uint8_t>* types = nullptr;    ///< seabed::type, of bottoms of several types
-    image<std::uint16_t>* shadow = nullptr;  ///< labels of casters that are known, as in labels::shadow
+    image<std::uint16_t>* shadow = nullptr;  ///< labels of known casters, as in labels::shadow
 
     void clear(const rect& tile) const {
         if (undecided != nullptr) undecided->marks.clear(tile);
@@ -157,7 +157,7 @@ class surface_shader {
         if (into_.undecided == nullptr)
             f.store(into_.picture, all);
         else
-            has_undecided = store_what_is_known<N>(f, all, rest, direct);
+            has_undecided = store_known<N>(f, all, rest, direct);
         if (into_.ids == nullptr || !(into_.has_all_ids || has_undecided)) return;
         lanes<std::uint32_t, N> ids;
         load(ids, f.triangles);
@@ -165,12 +165,12 @@ class surface_shader {
     }
 
   private:
-    /// Stores the light of pixels as far as it is known, and leaves the rest undecided.
+    /// Stores the light of pixels whose triangles are known to be lit or dark, and marks the others as undecided.
     /// @param all  light if nothing blocks the source
     /// @returns whether any is undecided
     template <int N>
-    INSONIFY_INLINE bool store_what_is_known(const fragment_lanes<N, surface_varyings>& f, const lanes<float, N>& all,
-                                             const lanes<float, N>& rest, const lanes<float, N>& direct) const {
+    INSONIFY_INLINE bool store_known(const fragment_lanes<N, surface_varyings>& f, const lanes<float, N>& all,
+                                     const lanes<float, N>& rest, const lanes<float, N>& direct) const {
         using ints = lanes<std::int32_t, N>;
         using floats = lanes<float, N>;
         floats value = rest < 1.0f ? rest : floats{} + 1.0f;
@@ -185,9 +185,9 @@ class surface_shader {
         }
         f.store(into_.picture, value);
         if (into_.shadow != nullptr) {
-            lanes<std::uint16_t, N> names;
-            convert(names, is_dark ? ints{} + static_cast<std::int32_t>(object_.self_shadow_label) : ints{});
-            f.store(*into_.shadow, names);
+            lanes<std::uint16_t, N> caster;
+            convert(caster, is_dark ? ints{} + static_cast<std::int32_t>(object_.self_shadow_label) : ints{});
+            f.store(*into_.shadow, caster);
         }
         static_assert(N <= 8);
         const unsigned which = movemask<N>(f.visible), marks = movemask<N>(undecided) & which;

@@ -1,5 +1,5 @@
-// From a shadow policy to the shadows in a picture: where light is undecided, the points that pixels show are found and
-// tested, tile by tile, and pixels gain the light that arrives. Labels name the caster.
+// Applies a shadow policy to a picture: finds and tests the points of pixels whose light is undecided, tile by tile,
+// adds the light that arrives to the pixels, and labels shadows with their casters.
 #pragma once
 
 #include <insonify/core/image.hpp>
@@ -29,8 +29,8 @@ class shadow_pass {
   public:
     struct images {
         const image<std::uint32_t>& ids;  ///< the visibility buffer of the surfaces, where light is undecided
-        undecided_light& undecided;       ///< loses the marks of what screening decides
-        image<float>& picture;            ///< gains the light that arrives
+        undecided_light& undecided;       ///< screening clears the marks of pixels that it decides
+        image<float>& picture;            ///< the light that arrives is added
         Labels& marks;
     };
 
@@ -126,9 +126,9 @@ class shadow_pass {
         return count;
     }
 
-    /// Tests the points of all pixels that are still marked. They are found anew: few are left, and keeping them would
-    /// take room for all.
-    /// @param unknown  how many of each tile
+    /// Tests the points of all pixels that are still marked. They are few, and found again: storing them in the first
+    /// pass would take memory for all points.
+    /// @param unknown  number of points of each tile
     template <class Occlusion, executor E>
     void test_together(const Occlusion& occlusion, const std::vector<std::size_t>& unknown, E& ex) {
         std::vector<std::size_t> starts{0};  // of the points of each run of tiles
@@ -160,9 +160,9 @@ class shadow_pass {
         for (std::size_t i = 0; i < points.size(); ++i)
             finish(points.pixel(i), i < points.facing, points.caster(i), light.lit[i], light.caster[i]);
     }
-    /// Adds the light that arrives at a pixel, and names the caster of its shadow, see light_pass.hpp.
-    /// @param own     caster that it lies on
-    /// @param caster  that blocks its light
+    /// Adds the light that arrives at a pixel, and labels its shadow, see light_pass.hpp.
+    /// @param own     the caster that the point lies on
+    /// @param caster  the caster that blocks its light
     void finish(std::size_t pixel, bool is_facing, std::uint32_t own, float lit, std::uint32_t caster) {
         if (is_facing && lit > 0.0f) {
             float& value = images_.picture.pixels()[pixel];
@@ -171,7 +171,7 @@ class shadow_pass {
         if constexpr (labelled) {
             if (is_facing && !(lit < 0.5f)) return;
             if (!is_facing && caster >= targets_) caster = own;
-            // Without a caster, it is yet to be tested.
+            // A point without a caster is not tested yet.
             if (caster != shadow::invalid_id) images_.marks.shadow.pixels()[pixel] = shadow_label(caster, targets_);
         }
     }

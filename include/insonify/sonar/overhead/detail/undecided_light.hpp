@@ -1,4 +1,4 @@
-// What shading leaves to the shadow pass: which pixels' light is undecided, and how much of it there may be.
+// Input of the shadow pass: which pixels' light is undecided, and how much may arrive there.
 #pragma once
 
 #include <insonify/core/image.hpp>
@@ -43,13 +43,13 @@ class pixel_marks {
     image<std::uint8_t> bytes_;
 };
 
-/// What shading leaves to the shadow pass.
+/// Output of shading for the shadow pass.
 ///
 /// A pixel whose triangle is known to be lit gets all its light at once, any other its sky and ambient light.
 struct undecided_light {
     pixel_marks marks;      ///< pixels whose light is undecided
-    image<float> direct;    ///< of those, the light of the source
-    bool has_dark = false;  ///< also where there is none, for the sake of labels
+    image<float> direct;    ///< light that the source adds to them if nothing blocks it
+    bool has_dark = false;  ///< whether pixels without such light are marked too, to label their shadows
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS

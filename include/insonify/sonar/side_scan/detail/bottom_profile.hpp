@@ -25,7 +25,7 @@ struct bottom_point {
 /// Samples the profile of one ping after the other, reusing memory.
 class bottom_profile {
   public:
-    /// @param start  distance across the track of the first vertex, at least
+    /// @param start  lower bound of the first vertex's distance across the track
     bottom_profile(const bottom_tiles& tiles, double step, double start, double range)
         : tiles_(tiles),
           step_(step),

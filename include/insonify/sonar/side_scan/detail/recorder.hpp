@@ -49,11 +49,8 @@ class recorder {
             picture = std::remove_reference_t<decltype(picture)>(
                 picture.view().part(0, margin, picture.width(), picture.height() - 2 * margin));
         };
-        if (margin > 0) crop(out_.image);
-        if constexpr (labelled) {
-            if (margin > 0) crop(out_.labels.instance), crop(out_.labels.shadow), crop(out_.labels.seabed);
-            measure_targets(out_.labels);
-        }
+        if (margin > 0) for_each_image(crop, out_);
+        if constexpr (labelled) measure_targets(out_.labels);
         return std::move(out_);
     }
 

@@ -10,7 +10,6 @@
 #include <insonify/sonar/side_scan/detail/target_slices.hpp>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <span>
 #include <vector>
@@ -97,12 +96,11 @@ class target_hits {
     double cut_off(std::size_t k, double range) {
         double covered = 0;
         bool is_cut = false;
-        for (std::size_t i = first_[k]; i < first_[k + 1]; ++i) {
+        for (std::size_t i = first_[k]; i < first_[k + 1]; ++i)
             if (hits_[i].square_range() < range * range)
                 covered += hits_[i].fraction;
             else if (hits_[i].fraction > 0)
                 hits_[i].fraction = 0, is_cut = true;
-        }
         if (is_cut) find_occluder(k, first_[k + 1]);
         return covered > 1 - 1e-9 ? 1 : covered;
     }
@@ -189,12 +187,11 @@ class target_hits {
         // Above max_parts segments, the ray is sampled at fixed positions.
         ends_.clear();
         ends_.push_back(ray_start(k)), ends_.push_back(ray_start(k) + 1);
-        if (parts.size() <= max_parts) {
+        if (parts.size() <= max_parts)
             for (const part& p : parts) ends_.push_back(p.low), ends_.push_back(p.high);
-        } else {
+        else
             for (std::size_t i = 1; i < max_parts; ++i)
                 ends_.push_back(ray_start(k) + static_cast<double>(i) / static_cast<double>(max_parts));
-        }
         std::sort(ends_.begin(), ends_.end());
         for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
             if (!(ends_[i] < ends_[i + 1])) continue;

@@ -83,8 +83,8 @@ class sliced_target {
         int alone = 0;
         while ((v[alone].y < 0) != (behind == 1)) ++alone;
         const auto end_on_edge = [&](int other) {
-            const int from = behind == 1 ? alone : other,
-                      to = behind == 1 ? other : alone;  // from behind the plane to its front
+            // From behind the plane to its front.
+            const int from = behind == 1 ? alone : other, to = behind == 1 ? other : alone;
             const double f = v[from].y / (v[from].y - v[to].y);
             const glm::dvec3 at = v[from] + f * (v[to] - v[from]);
             const glm::vec3 &n = shape_->normals[t[from]], &m = shape_->normals[t[to]];
