@@ -1,5 +1,5 @@
-// Pictures in unit tests: compared with a tolerance, or with golden files. Opt-in; testing/catch2.hpp has matchers for
-// Catch2, those for GoogleTest are here.
+// Compares pictures in unit tests, with a tolerance or with golden files. Opt-in. Matchers for GoogleTest are included;
+// those for Catch2 are in testing/catch2.hpp.
 #pragma once
 
 #include <insonify/testing/compare.hpp>

@@ -15,8 +15,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 /// A fixed number of threads that share the calls of one `bulk` at a time; the calling thread is one of them.
-/// A `bulk` that finds the pool at work, called from inside a running call or from another thread, runs on its calling
-/// thread instead of waiting: nesting can't deadlock, however pools are mixed.
+/// If the pool is busy, `bulk` runs everything on its calling thread instead of waiting, so that nested calls, also
+/// across pools, cannot deadlock.
 class thread_pool {
   public:
     /// If the system refuses to start some threads (a limit on processes or memory), the pool works with fewer;

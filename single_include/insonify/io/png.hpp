@@ -35,9 +35,8 @@ inline void write_png_bytes(const std::string& path, const void* pixels, int wid
     const auto append = [](void* context, void* data, int size) {
         static_cast<replacement_file*>(context)->write(data, static_cast<std::size_t>(size));
     };
-    if (stbi_write_png_to_func(append, &file, width, height, channels, pixels, static_cast<int>(row_bytes)) == 0) {
+    if (stbi_write_png_to_func(append, &file, width, height, channels, pixels, static_cast<int>(row_bytes)) == 0)
         raise_io(path, "can't encode as PNG: out of memory");
-    }
     file.commit();
 }
 
@@ -56,7 +55,7 @@ inline void write_png(const std::string& path, image_view<const std::uint8_t> so
 inline void write_png(const std::string& path, image_view<const rgb8> source) {
     detail::write_png_bytes(path, source.data(), source.width(), source.height(), 3, 3 * source.stride());
 }
-/// The same of values in [0, 1], rounded to 8 bits.
+/// The same for values in [0, 1], rounded to 8 bits.
 inline void write_png(const std::string& path, image_view<const float> source) {
     write_png(path, map_pixels(source, quantize<std::uint8_t>));
 }

@@ -50,7 +50,7 @@ auto matches(picture_matcher<Compare> matcher) {
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
-/// What Catch2 prints of a picture.
+/// Text that Catch2 prints for a picture.
 template <class Pixel>
 struct Catch::StringMaker<insonify::image<Pixel>> {
     static std::string convert(const insonify::image<Pixel>& picture) {

@@ -1,4 +1,4 @@
-// Compares two pictures inside a unit test: whether they agree within a tolerance, and if not, where and by how much.
+// Compares two pictures in a unit test, and says where they differ and by how much.
 #pragma once
 
 #include <insonify/insonify.hpp>
@@ -14,18 +14,18 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What a test lets pass. The default lets nothing pass but the same values.
+/// How far a picture may differ from the expected one; by default, not at all.
 struct picture_tolerance {
-    double value = 0;  ///< by which a pixel may differ in any channel, in the unit of the pixels
-    double share = 0;  ///< of the pixels that may differ by more, 0 to 1
+    double value = 0;  ///< largest difference of a pixel in any channel, in the unit of the pixels
+    double share = 0;  ///< fraction of the pixels that may differ by more, 0 to 1
 };
 
 /// The result of a comparison. Converts to true if the pictures agree.
 struct picture_comparison {
-    std::size_t pixels = 0;  ///< compared
-    std::size_t wrong = 0;   ///< that differ by more than the tolerance
+    std::size_t pixels = 0;  ///< number of pixels compared
+    std::size_t wrong = 0;   ///< number of pixels that differ by more than the tolerance
     int x = 0, y = 0;        ///< the pixel that differs most
-    double largest = 0;      ///< difference, there
+    double largest = 0;      ///< its difference
     std::string message{};   ///< empty if the pictures agree
 
     explicit operator bool() const { return message.empty(); }
@@ -33,7 +33,7 @@ struct picture_comparison {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A pixel's channels, as doubles and as text: the shortest that reads back as the same sample.
+/// Channels of a pixel as doubles, and as the shortest text that reads back as the same sample.
 template <class Pixel>
 struct channels_of {
     static constexpr int count = 1;
@@ -78,7 +78,7 @@ template <storable_pixel Pixel>
 picture_comparison compare_pictures(const image<Pixel>& found, const image<Pixel>& expected,
                                     const picture_tolerance& tolerance = {}) {
     detail::require(tolerance.value >= 0, "tolerance.value", tolerance.value, "at least 0");
-    detail::require(tolerance.share >= 0 && tolerance.share <= 1, "tolerance.share", tolerance.share, "0 to 1");
+    detail::require_fraction("tolerance.share", tolerance.share);
     picture_comparison result;
     if (found.width() != expected.width() || found.height() != expected.height()) {
         result.message = "the picture has " + detail::size_text(found.width(), found.height()) + ", expected " +
@@ -107,8 +107,8 @@ picture_comparison compare_pictures(const image<Pixel>& found, const image<Pixel
     return result;
 }
 
-/// Where two pictures differ: the expected one in dim gray, on it red where the found one is brighter and blue where it
-/// is darker, full at the largest difference.
+/// Shows where two pictures differ: the expected one in dim gray, overlaid in red where the found one is brighter and
+/// in blue where it is darker, in full colour at the largest difference.
 /// @throws invalid_input if the sizes differ
 template <storable_pixel Pixel>
 image<rgb8> difference_picture(const image<Pixel>& found, const image<Pixel>& expected) {

@@ -1,4 +1,4 @@
-// Golden pictures: a test compares its picture with one on disk, and leaves what differs beside it.
+// Golden pictures: compares pictures with files, and writes the differences beside them.
 //
 //     const in::golden_pictures golden{.folder = "tests/golden"};
 //     const auto result = golden.compare("cube", frame.image);
@@ -19,30 +19,21 @@
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-inline namespace INSONIFY_FLAGS {
-
-/// Whether the environment variable INSONIFY_UPDATE_GOLDEN is set to anything but nothing or 0.
-inline bool golden_update_requested() {
-    const char* const value = std::getenv("INSONIFY_UPDATE_GOLDEN");
-    return value != nullptr && value[0] != '\0' && std::string(value) != "0";
-}
-
-}  // namespace INSONIFY_FLAGS
-
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The ending that a netpbm file of such pixels has.
+/// File extension of a netpbm file of such pixels.
 template <class Pixel>
-constexpr const char* netpbm_ending() {
+constexpr const char* netpbm_extension() {
     using stored = netpbm_pixel<Pixel>;
     if (std::is_same_v<typename stored::sample, float>) return ".pfm";
     return stored::channels == 1 ? ".pgm" : ".ppm";
 }
 
+/// Writes the found picture and its difference to files, and appends their paths to a message.
 template <class Pixel>
 std::string with_files(std::string message, const std::string& stem, const image<Pixel>& found,
                        const image<Pixel>& expected) {
-    const std::string found_path = stem + ".found" + netpbm_ending<Pixel>();
+    const std::string found_path = stem + ".found" + netpbm_extension<Pixel>();
     write_netpbm(found_path, found);
     message += "; see " + found_path;
     if (found.width() != expected.width() || found.height() != expected.height()) return message;
@@ -55,7 +46,13 @@ std::string with_files(std::string message, const std::string& stem, const image
 
 inline namespace INSONIFY_FLAGS {
 
-/// A matcher of GoogleTest and GoogleMock (1.11 and later), which needs none of their headers: EXPECT_THAT(picture, m).
+/// Whether the environment variable INSONIFY_UPDATE_GOLDEN is set, and neither empty nor 0.
+inline bool golden_update_requested() {
+    const char* const value = std::getenv("INSONIFY_UPDATE_GOLDEN");
+    return value != nullptr && value[0] != '\0' && std::string(value) != "0";
+}
+
+/// A matcher for EXPECT_THAT of GoogleTest and GoogleMock (1.11 and later). Needs none of their headers.
 template <class Compare>
 struct picture_matcher {
     using is_gtest_matcher = void;
@@ -76,13 +73,13 @@ struct picture_matcher {
 template <class Compare>
 picture_matcher(Compare, std::string) -> picture_matcher<Compare>;
 
-/// What GoogleTest prints of a picture, in place of its bytes.
+/// Prints a picture for GoogleTest, which would print its bytes.
 template <class Pixel>
 void PrintTo(const image<Pixel>& picture, std::ostream* out) {
     *out << "a picture of " << detail::size_text(picture.width(), picture.height());
 }
 
-/// Matches a picture that agrees with the expected one, of which it keeps a copy.
+/// Matches a picture that agrees with the expected one, which is copied.
 template <storable_pixel Pixel>
 auto is_picture(image<Pixel> expected, const picture_tolerance& tolerance = {}) {
     return picture_matcher{[expected = std::move(expected), tolerance](const image<Pixel>& found) {
@@ -91,21 +88,20 @@ auto is_picture(image<Pixel> expected, const picture_tolerance& tolerance = {}) 
                            std::string("the expected picture")};
 }
 
-/// Pictures that tests are compared with, as netpbm files in a folder that exists: `<name>.pfm` of floats, `.pgm` of
-/// integers, `.ppm` of colours.
+/// A folder of golden pictures as netpbm files: `<name>.pfm` of floats, `.pgm` of integers, `.ppm` of colours.
 struct golden_pictures {
-    std::string folder = ".";
-    /// Where a test that fails leaves `<name>.found` and `<name>.difference`: the golden pictures' folder if empty.
+    std::string folder = ".";  ///< must exist
+    /// Folder to which a failing test writes `<name>.found` and `<name>.difference`; empty: `folder`.
     std::string failures{};
     bool update = golden_update_requested();
 
-    /// Compares a picture with the golden one of that name, or writes it if an update was asked for. On failure the
-    /// picture and its difference are left on disk and the message says where.
+    /// Compares a picture with the golden one of that name, or replaces the golden one if `update` is set. If they
+    /// differ, writes the picture and the difference to files that the message names.
     /// @throws io_error if a file can't be read or written; invalid_input as `compare_pictures`
     template <storable_pixel Pixel>
     picture_comparison compare(const std::string& name, const image<Pixel>& found,
                                const picture_tolerance& tolerance = {}) const {
-        const std::string path = folder + "/" + name + detail::netpbm_ending<Pixel>();
+        const std::string path = folder + "/" + name + detail::netpbm_extension<Pixel>();
         if (update) {
             write_netpbm(path, found);
             return {.pixels = found.size()};
@@ -121,9 +117,7 @@ struct golden_pictures {
         }
         const image<Pixel> expected = read_netpbm<Pixel>(path);
         picture_comparison result = compare_pictures(found, expected, tolerance);
-        if (!result) {
-            result.message = detail::with_files<Pixel>(name + ": " + result.message, stem, found, expected);
-        }
+        if (!result) result.message = detail::with_files<Pixel>(name + ": " + result.message, stem, found, expected);
         return result;
     }
 
