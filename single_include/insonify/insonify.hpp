@@ -24161,8 +24161,11 @@ class sliced_target {
             const glm::vec3 &n = shape_->normals[t[from]], &m = shape_->normals[t[to]];
             return cut_segment::end{at.x, -at.z, numeric::product(normals, n + static_cast<float>(f) * (m - n))};
         };
-        visit(cut_segment{end_on_edge((alone + 1) % 3), end_on_edge((alone + 2) % 3),
-                          glm::vec3(sign * numeric::cross(v[1] - v[0], v[2] - v[0]))});
+        // Its square has to fit into a float.
+        glm::dvec3 facet = sign * numeric::cross(v[1] - v[0], v[2] - v[0]);
+        const double size = numeric::abs(facet.x) + numeric::abs(facet.y) + numeric::abs(facet.z);
+        if (!(size > 1e-15 && size < 1e15) && size > 0) facet = facet / size;
+        visit(cut_segment{end_on_edge((alone + 1) % 3), end_on_edge((alone + 2) % 3), glm::vec3(facet)});
     }
 
     shared_mesh shape_;
@@ -24362,6 +24365,7 @@ class target_hits {
         float square = numeric::dot(n, n);
         if (!(square > 0 && numeric::is_finite(square))) n = o.facet, square = numeric::dot(n, n);
         const bool is_front = o.facet.z * cosine - o.facet.x * sine > 0, is_along = numeric::dot(n, o.facet) > 0;
+        if (!(square > 0)) return 0;
         return (is_front == is_along ? 1.0f : -1.0f) * (n.z * cosine - n.x * sine) / numeric::square_root(square);
     }
 

@@ -179,6 +179,7 @@ class target_hits {
         float square = numeric::dot(n, n);
         if (!(square > 0 && numeric::is_finite(square))) n = o.facet, square = numeric::dot(n, n);
         const bool is_front = o.facet.z * cosine - o.facet.x * sine > 0, is_along = numeric::dot(n, o.facet) > 0;
+        if (!(square > 0)) return 0;
         return (is_front == is_along ? 1.0f : -1.0f) * (n.z * cosine - n.x * sine) / numeric::square_root(square);
     }
 
