@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "../common/option_values.hpp"
@@ -79,11 +80,11 @@ inline void check_classes(const options& o) {
 /// Checks `--per-class`.
 /// @throws CLI::ValidationError unless each item is CLASS=COUNT with a class of the set, each class once
 inline void check_counts(const options& o) {
-    std::vector<std::string> known = o.targets, counted;
-    for (const std::string& mesh : o.meshes) known.push_back(class_of(mesh));
+    std::set<std::string> known(o.targets.begin(), o.targets.end()), counted;
+    for (const std::string& mesh : o.meshes) known.insert(class_of(mesh));
     if (o.is_sonar())
-        known.insert(known.end(), {"cylinder", "cube", "cone", "sphere", "ship", "plane", "truncated_cone", "wedge",
-                                   "tyre", "pipe", "boulder", "crate", "lobster_pot", "empty"});
+        known.insert({"cylinder", "cube", "cone", "sphere", "ship", "plane", "truncated_cone", "wedge", "tyre", "pipe",
+                      "boulder", "crate", "lobster_pot", "empty"});
     for (const std::string& text : o.per_class) {
         const std::size_t equals = text.find('=');
         const std::string name = text.substr(0, equals);
@@ -92,13 +93,12 @@ inline void check_counts(const options& o) {
         const bool is_number = equals != std::string::npos &&
                                std::from_chars(text.data() + equals + 1, end, count).ptr == end && count >= 1 &&
                                count <= 1'000'000'000;
-        if (!is_number || std::find(known.begin(), known.end(), name) == known.end())
+        if (!is_number || !known.contains(name))
             throw CLI::ValidationError(
                 "--per-class",
                 "'" + text + "' is not CLASS=COUNT with a count from 1 and one of " + CLI::detail::join(known));
-        if (std::find(counted.begin(), counted.end(), name) != counted.end())
+        if (!counted.insert(name).second)
             throw CLI::ValidationError("--per-class", "'" + name + "' appears twice; name each class once");
-        counted.push_back(name);
     }
 }
 

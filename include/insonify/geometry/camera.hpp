@@ -53,7 +53,7 @@ class camera_view {
         : to_camera_(compose(look_at(c), object_to_world)), z_near_(c.z_near) {
         detail::require(c.field_of_view > 0 && static_cast<double>(c.field_of_view) < numeric::pi,
                         "camera.field_of_view", c.field_of_view, "above 0 and below pi");
-        detail::require(c.aspect > 0 && numeric::is_finite(c.aspect), "camera.aspect", c.aspect, "above 0");
+        detail::require_positive("camera.aspect", c.aspect);
         detail::require(c.z_near > 0 && numeric::is_finite(c.z_near), "camera.z_near", c.z_near, "metres above 0");
         const double scale = 1 / numeric::tan(0.5 * static_cast<double>(c.field_of_view));
         scale_ = {static_cast<float>(scale / static_cast<double>(c.aspect)), static_cast<float>(scale)};

@@ -68,7 +68,7 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input for a value out of its range
 inline void validate(const facet_backscatter& f) {
     detail::require_not_negative("facet_backscatter.facets", f.facets);
-    detail::require(f.slope > 0 && numeric::is_finite(f.slope), "facet_backscatter.slope", f.slope, "above 0");
+    detail::require_positive("facet_backscatter.slope", f.slope);
     detail::require_not_negative("facet_backscatter.volume", f.volume);
 }
 

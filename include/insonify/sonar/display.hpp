@@ -28,7 +28,7 @@ struct display {
 
     /// @throws invalid_input for a `white` that isn't positive, or an exponent outside its range
     INSONIFY_TAGGED auto pass() const {
-        detail::require(white > 0 && numeric::is_finite(white), "display.white", white, "above 0");
+        detail::require_positive("display.white", white);
         detail::require(exponent > 0 && exponent <= 4, "display.exponent", exponent, "above 0, at most 4");
         return [scale = 1 / white, to = exponent]<std::same_as<float> Pixel>(Pixel intensity, int, int) -> Pixel {
             const float share = intensity * scale;
@@ -51,7 +51,7 @@ struct decibel_display {
 
     /// @throws invalid_input for a parameter out of its range
     INSONIFY_TAGGED auto pass() const {
-        detail::require(white > 0 && numeric::is_finite(white), "decibel_display.white", white, "above 0");
+        detail::require_positive("decibel_display.white", white);
         detail::require(range > 0 && range <= 400, "decibel_display.range", range, "above 0, at most 400 dB");
         // 10 log10(e) / range for each natural logarithm
         return [white = static_cast<double>(white),

@@ -93,12 +93,13 @@ struct occlusion_kernel {
         floats area = ab[0] * ac[1] - ab[1] * ac[0];
         const floats area_off = 0x1p-20f * (size + receivers.largest()) * (extent[0] + extent[1]);
         const ints facing = ints((is_turned ? 0.0f - area : area) > area_off) & ints(t.state == 0.0f);
-        const bool skips_for_all =
-            may_skip == skip::facing ? !receivers.may_be_on_averted_side(number) : receivers.are_on_lit_side(number);
-        if (may_skip != skip::nothing && skips_for_all) missed |= facing;
+        const bool all_skip = may_skip == skip::facing
+                                  ? !receivers.may_be_on_averted_side(number)
+                                  : may_skip == skip::facing_its_own && receivers.are_on_lit_side(number);
+        if (all_skip) missed |= facing;
         const unsigned open = ~movemask<N>(missed) & ((2u << (count - 1)) - 1);
         if (open == 0) return;
-        const unsigned skipped_by_some = may_skip != skip::nothing ? movemask<N>(facing) : 0;
+        const unsigned some_skip = may_skip != skip::nothing ? movemask<N>(facing) : 0;
         // Counter-clockwise on the plane.
         const ints turned = ints(area < 0.0f);
         unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
@@ -136,7 +137,7 @@ struct occlusion_kernel {
             const float one[12] = {values[0][k], values[1][k], values[2][k],  values[3][k],
                                    values[4][k], values[5][k], values[6][k],  values[7][k],
                                    values[8][k], values[9][k], values[10][k], values[11][k]};
-            const skip skips = (skipped_by_some >> k & 1) != 0 ? may_skip : skip::nothing;
+            const skip skips = (some_skip >> k & 1) != 0 ? may_skip : skip::nothing;
             for (int row = cells[1][k]; row <= cells[3][k]; ++row)
                 compare<N>(one, ids[k], skips, receivers.start(row, cells[0][k]),
                            receivers.start(row, cells[2][k] + 1));

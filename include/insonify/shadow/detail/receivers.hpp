@@ -35,6 +35,19 @@ struct receiver {
     std::uint32_t mesh, triangle;  ///< that it lies on
 };
 
+/// The lowest and the highest of some numbers of meshes.
+struct mesh_range {
+    std::uint32_t first = invalid_id, last = 0;
+
+    void include(std::uint32_t mesh) {
+        first = (std::min)(first, mesh);
+        last = (std::max)(last, mesh);
+    }
+    bool contains(std::uint32_t mesh) const { return first <= mesh && mesh <= last; }
+    bool is_only(std::uint32_t mesh) const { return first == mesh && last == mesh; }
+    bool empty() const { return first > last; }
+};
+
 /// A tile's receivers by cell: rows along u, one after another.
 class receiver_cells {
   public:
@@ -68,12 +81,7 @@ class receiver_cells {
         place.resize(room);
         for (auto* array : {&mesh, &triangle, &lit_mesh, &limit_}) array->resize(room);
         is_limited_ = false;
-        first_averted_ = invalid_id, last_averted_ = 0;
-        is_one_lit_mesh_ = true;
-        const auto lit_mesh_of = [&](const receiver& r) {
-            return batches[r.place.batch()].face_light ? r.mesh : invalid_id;
-        };
-        first_lit_ = lit_mesh_of(from.front());
+        lit_ = averted_ = {};
         next_.assign(starts_.begin(), starts_.end() - 1);
         for (std::size_t i = 0; i < count; ++i) {
             const receiver& r = from[i];
@@ -87,12 +95,8 @@ class receiver_cells {
             const points& batch = batches[r.place.batch()];
             limit_[at] = batch.casters;
             is_limited_ = is_limited_ || batch.casters != invalid_id;
-            lit_mesh[at] = lit_mesh_of(r);
-            is_one_lit_mesh_ = is_one_lit_mesh_ && lit_mesh[at] == first_lit_;
-            if (!batch.face_light) {
-                first_averted_ = (std::min)(first_averted_, r.mesh);
-                last_averted_ = (std::max)(last_averted_, r.mesh);
-            }
+            lit_mesh[at] = batch.face_light ? r.mesh : invalid_id;
+            (batch.face_light ? lit_ : averted_).include(r.mesh);
         }
         for (std::size_t i = count; i < room; ++i) u[i] = v[i] = height[i] = 0;
         caster.assign(room, open);
@@ -109,11 +113,9 @@ class receiver_cells {
     /// No coordinate u or v is larger.
     float largest() const { return largest_; }
     /// Whether all lie where a caster faces the light.
-    bool are_on_lit_side(std::uint32_t number) const { return is_one_lit_mesh_ && first_lit_ == number; }
+    bool are_on_lit_side(std::uint32_t number) const { return averted_.empty() && lit_.is_only(number); }
     /// Whether some may lie where a caster faces away from the light.
-    bool may_be_on_averted_side(std::uint32_t number) const {
-        return first_averted_ <= number && number <= last_averted_;
-    }
+    bool may_be_on_averted_side(std::uint32_t number) const { return averted_.contains(number); }
     /// Receivers that are tested for the first casters alone take no more from now on.
     void close(std::uint32_t casters) {
         if (!is_limited_) return;
@@ -146,9 +148,8 @@ class receiver_cells {
     int columns_ = 1, rows_ = 1;
     glm::vec2 lower_{0}, scale_{1}, cell_{1};
     float lowest_ = 0, highest_ = 0, largest_ = 0;
-    bool is_limited_ = false, is_one_lit_mesh_ = true;
-    std::uint32_t first_lit_ = invalid_id;                         ///< lit_mesh of the first
-    std::uint32_t first_averted_ = invalid_id, last_averted_ = 0;  ///< meshes of points that face away
+    bool is_limited_ = false;
+    mesh_range lit_, averted_;  ///< meshes of points that face the light, and of those that face away
     std::vector<std::uint32_t> starts_, next_, limit_;
     std::vector<std::uint16_t> keys_;
 };

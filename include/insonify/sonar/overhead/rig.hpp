@@ -41,7 +41,7 @@ inline namespace INSONIFY_FLAGS {
 inline void validate(const overhead& rig) {
     using detail::require, detail::require_not_negative, detail::require_range;
     detail::require_finite("overhead.position", rig.position);
-    require(rig.altitude > 0 && numeric::is_finite(rig.altitude), "overhead.altitude", rig.altitude, "above 0");
+    detail::require_positive("overhead.altitude", rig.altitude);
     require(numeric::is_finite(rig.yaw), "overhead.yaw", rig.yaw, "a finite angle");
     require(rig.field_of_view > 0 && static_cast<double>(rig.field_of_view) < numeric::to_radians(179.9),
             "overhead.field_of_view", rig.field_of_view, "above 0 and below 179.9 degrees, in radians");

@@ -83,8 +83,7 @@ void validate(const side_scan_rig<Axis>& rig) {
     detail::require_finite("side_scan.position", rig.position);
     detail::require_finite("side_scan.altitude", rig.altitude);
     detail::require_finite("side_scan.yaw", rig.yaw);
-    require(rig.ping_spacing > 0 && numeric::is_finite(rig.ping_spacing), "side_scan.ping_spacing", rig.ping_spacing,
-            "above 0");
+    detail::require_positive("side_scan.ping_spacing", rig.ping_spacing);
     require_range("side_scan.pings", rig.pings, 1, 1 << 20, "1 to 2^20");
     detail::require_not_negative("side_scan.first_range", rig.first_range);
     require(rig.range > rig.first_range && rig.range <= 1e5f, "side_scan.range", rig.range,

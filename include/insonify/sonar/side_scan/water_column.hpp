@@ -90,20 +90,17 @@ struct water_column {
 
     /// @throws invalid_input for a parameter out of its range
     INSONIFY_TAGGED auto pass(image_view<const float> picture) const {
-        using detail::require_not_negative, detail::require_range;
-        const auto above_0 = [](const char* name, float v) {
-            detail::require(v > 0 && numeric::is_finite(v), name, v, "above 0");
-        };
+        using detail::require_not_negative, detail::require_positive, detail::require_range;
         require_not_negative("water_column.first_range", first_range);
-        above_0("water_column.bin", bin);
+        require_positive("water_column.bin", bin);
         require_not_negative("water_column.noise", noise);
-        above_0("water_column.noise_range", noise_range);
+        require_positive("water_column.noise_range", noise_range);
         require_range("water_column.spreading", spreading, 0, 60, "0 to 60 dB");
         require_range("water_column.absorption_per_km", absorption_per_km, 0, 3000, "0 to 3000 dB");
         require_not_negative("water_column.volume", volume);
         require_not_negative("water_column.surface", surface);
-        above_0("water_column.surface_range", surface_range);
-        above_0("water_column.surface_tail", surface_tail);
+        require_positive("water_column.surface_range", surface_range);
+        require_positive("water_column.surface_tail", surface_tail);
         require_not_negative("water_column.waves", waves);
         require_range("water_column.wave_length", wave_length, 1, 1e9f, "1 to 1e9 pings");
         return detail::water_law<water_column>(*this, picture.width());

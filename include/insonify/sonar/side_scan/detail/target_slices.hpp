@@ -90,7 +90,7 @@ class sliced_target {
             const glm::vec3 &n = shape_->normals[t[from]], &m = shape_->normals[t[to]];
             return cut_segment::end{at.x, -at.z, numeric::product(normals, n + static_cast<float>(f) * (m - n))};
         };
-        // Its square has to fit into a float.
+        // Scaled where its square would not fit into a float.
         glm::dvec3 facet = sign * numeric::cross(v[1] - v[0], v[2] - v[0]);
         const double size = numeric::abs(facet.x) + numeric::abs(facet.y) + numeric::abs(facet.z);
         if (!(size > 1e-15 && size < 1e15) && size > 0) facet = facet / size;
