@@ -283,16 +283,22 @@ TEST_CASE("Points that face away are named after the first caster that blocks th
         for (const double elevation : {3.0, 10.0, 20.0}) {
             const shadow::directional_light light = parallel(20, elevation);
             const lit::mesh own(mesh, light);
-            const lit::point_list list = own.averted(500, 3);
+            const lit::point_list lit_list = own.facing(500, 3), list = own.averted(500, 3);
             shadow::points averted = list;
             averted.face_light = false;
+            const shadow::points at[] = {lit_list, averted};
             shadow::caster casters[] = {lit::caster_of(*own), lit::caster_of(roof)};
             CAPTURE(elevation, list.size());
             const auto tested = [&] {
-                return lit::test(shadow::exact{}.build(casters, light, {list.box()}, serial), averted).caster;
+                lit::answers lit(lit_list.size()), dark(list.size());
+                const shadow::shares into[] = {lit, dark};
+                shadow::exact{}
+                    .build(casters, light, {merge(lit_list.box(), list.box())}, serial)
+                    .test(std::span<const shadow::points>(at), std::span<const shadow::shares>(into), serial);
+                return std::pair(lit.caster, dark.caster);
             };
             const auto all = tested();
-            CHECK(std::count(all.begin(), all.end(), 0u) > 0);
+            CHECK(std::count(all.second.begin(), all.second.end(), 0u) > 0);
             casters[0].may_skip = skip;
             CHECK(tested() == all);
         }
