@@ -5429,7 +5429,7 @@ class camera_view {
         : to_camera_(compose(look_at(c), object_to_world)), z_near_(c.z_near) {
         detail::require(c.field_of_view > 0 && static_cast<double>(c.field_of_view) < numeric::pi,
                         "camera.field_of_view", c.field_of_view, "above 0 and below pi");
-        detail::require(c.aspect > 0 && numeric::is_finite(c.aspect), "camera.aspect", c.aspect, "above 0");
+        detail::require_positive("camera.aspect", c.aspect);
         detail::require(c.z_near > 0 && numeric::is_finite(c.z_near), "camera.z_near", c.z_near, "metres above 0");
         const double scale = 1 / numeric::tan(0.5 * static_cast<double>(c.field_of_view));
         scale_ = {static_cast<float>(scale / static_cast<double>(c.aspect)), static_cast<float>(scale)};
@@ -10024,7 +10024,7 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input for a value out of its range
 inline void validate(const facet_backscatter& f) {
     detail::require_not_negative("facet_backscatter.facets", f.facets);
-    detail::require(f.slope > 0 && numeric::is_finite(f.slope), "facet_backscatter.slope", f.slope, "above 0");
+    detail::require_positive("facet_backscatter.slope", f.slope);
     detail::require_not_negative("facet_backscatter.volume", f.volume);
 }
 
@@ -10057,7 +10057,7 @@ struct display {
 
     /// @throws invalid_input for a `white` that isn't positive, or an exponent outside its range
     INSONIFY_TAGGED auto pass() const {
-        detail::require(white > 0 && numeric::is_finite(white), "display.white", white, "above 0");
+        detail::require_positive("display.white", white);
         detail::require(exponent > 0 && exponent <= 4, "display.exponent", exponent, "above 0, at most 4");
         return [scale = 1 / white, to = exponent]<std::same_as<float> Pixel>(Pixel intensity, int, int) -> Pixel {
             const float share = intensity * scale;
@@ -10080,7 +10080,7 @@ struct decibel_display {
 
     /// @throws invalid_input for a parameter out of its range
     INSONIFY_TAGGED auto pass() const {
-        detail::require(white > 0 && numeric::is_finite(white), "decibel_display.white", white, "above 0");
+        detail::require_positive("decibel_display.white", white);
         detail::require(range > 0 && range <= 400, "decibel_display.range", range, "above 0, at most 400 dB");
         // 10 log10(e) / range for each natural logarithm
         return [white = static_cast<double>(white),
@@ -10534,8 +10534,7 @@ void validate(const side_scan_rig<Axis>& rig) {
     detail::require_finite("side_scan.position", rig.position);
     detail::require_finite("side_scan.altitude", rig.altitude);
     detail::require_finite("side_scan.yaw", rig.yaw);
-    require(rig.ping_spacing > 0 && numeric::is_finite(rig.ping_spacing), "side_scan.ping_spacing", rig.ping_spacing,
-            "above 0");
+    detail::require_positive("side_scan.ping_spacing", rig.ping_spacing);
     require_range("side_scan.pings", rig.pings, 1, 1 << 20, "1 to 2^20");
     detail::require_not_negative("side_scan.first_range", rig.first_range);
     require(rig.range > rig.first_range && rig.range <= 1e5f, "side_scan.range", rig.range,
@@ -10704,7 +10703,7 @@ inline namespace INSONIFY_FLAGS {
 inline void validate(const overhead& rig) {
     using detail::require, detail::require_not_negative, detail::require_range;
     detail::require_finite("overhead.position", rig.position);
-    require(rig.altitude > 0 && numeric::is_finite(rig.altitude), "overhead.altitude", rig.altitude, "above 0");
+    detail::require_positive("overhead.altitude", rig.altitude);
     require(numeric::is_finite(rig.yaw), "overhead.yaw", rig.yaw, "a finite angle");
     require(rig.field_of_view > 0 && static_cast<double>(rig.field_of_view) < numeric::to_radians(179.9),
             "overhead.field_of_view", rig.field_of_view, "above 0 and below 179.9 degrees, in radians");
@@ -15271,6 +15270,19 @@ struct receiver {
     std::uint32_t mesh, triangle;  ///< that it lies on
 };
 
+/// The lowest and the highest of some numbers of meshes.
+struct mesh_range {
+    std::uint32_t first = invalid_id, last = 0;
+
+    void include(std::uint32_t mesh) {
+        first = (std::min)(first, mesh);
+        last = (std::max)(last, mesh);
+    }
+    bool contains(std::uint32_t mesh) const { return first <= mesh && mesh <= last; }
+    bool is_only(std::uint32_t mesh) const { return first == mesh && last == mesh; }
+    bool empty() const { return first > last; }
+};
+
 /// A tile's receivers by cell: rows along u, one after another.
 class receiver_cells {
   public:
@@ -15304,12 +15316,7 @@ class receiver_cells {
         place.resize(room);
         for (auto* array : {&mesh, &triangle, &lit_mesh, &limit_}) array->resize(room);
         is_limited_ = false;
-        first_averted_ = invalid_id, last_averted_ = 0;
-        is_one_lit_mesh_ = true;
-        const auto lit_mesh_of = [&](const receiver& r) {
-            return batches[r.place.batch()].face_light ? r.mesh : invalid_id;
-        };
-        first_lit_ = lit_mesh_of(from.front());
+        lit_ = averted_ = {};
         next_.assign(starts_.begin(), starts_.end() - 1);
         for (std::size_t i = 0; i < count; ++i) {
             const receiver& r = from[i];
@@ -15323,12 +15330,8 @@ class receiver_cells {
             const points& batch = batches[r.place.batch()];
             limit_[at] = batch.casters;
             is_limited_ = is_limited_ || batch.casters != invalid_id;
-            lit_mesh[at] = lit_mesh_of(r);
-            is_one_lit_mesh_ = is_one_lit_mesh_ && lit_mesh[at] == first_lit_;
-            if (!batch.face_light) {
-                first_averted_ = (std::min)(first_averted_, r.mesh);
-                last_averted_ = (std::max)(last_averted_, r.mesh);
-            }
+            lit_mesh[at] = batch.face_light ? r.mesh : invalid_id;
+            (batch.face_light ? lit_ : averted_).include(r.mesh);
         }
         for (std::size_t i = count; i < room; ++i) u[i] = v[i] = height[i] = 0;
         caster.assign(room, open);
@@ -15345,11 +15348,9 @@ class receiver_cells {
     /// No coordinate u or v is larger.
     float largest() const { return largest_; }
     /// Whether all lie where a caster faces the light.
-    bool are_on_lit_side(std::uint32_t number) const { return is_one_lit_mesh_ && first_lit_ == number; }
+    bool are_on_lit_side(std::uint32_t number) const { return averted_.empty() && lit_.is_only(number); }
     /// Whether some may lie where a caster faces away from the light.
-    bool may_be_on_averted_side(std::uint32_t number) const {
-        return first_averted_ <= number && number <= last_averted_;
-    }
+    bool may_be_on_averted_side(std::uint32_t number) const { return averted_.contains(number); }
     /// Receivers that are tested for the first casters alone take no more from now on.
     void close(std::uint32_t casters) {
         if (!is_limited_) return;
@@ -15382,9 +15383,8 @@ class receiver_cells {
     int columns_ = 1, rows_ = 1;
     glm::vec2 lower_{0}, scale_{1}, cell_{1};
     float lowest_ = 0, highest_ = 0, largest_ = 0;
-    bool is_limited_ = false, is_one_lit_mesh_ = true;
-    std::uint32_t first_lit_ = invalid_id;                         ///< lit_mesh of the first
-    std::uint32_t first_averted_ = invalid_id, last_averted_ = 0;  ///< meshes of points that face away
+    bool is_limited_ = false;
+    mesh_range lit_, averted_;  ///< meshes of points that face the light, and of those that face away
     std::vector<std::uint32_t> starts_, next_, limit_;
     std::vector<std::uint16_t> keys_;
 };
@@ -15487,12 +15487,13 @@ struct occlusion_kernel {
         floats area = ab[0] * ac[1] - ab[1] * ac[0];
         const floats area_off = 0x1p-20f * (size + receivers.largest()) * (extent[0] + extent[1]);
         const ints facing = ints((is_turned ? 0.0f - area : area) > area_off) & ints(t.state == 0.0f);
-        const bool skips_for_all =
-            may_skip == skip::facing ? !receivers.may_be_on_averted_side(number) : receivers.are_on_lit_side(number);
-        if (may_skip != skip::nothing && skips_for_all) missed |= facing;
+        const bool all_skip = may_skip == skip::facing
+                                  ? !receivers.may_be_on_averted_side(number)
+                                  : may_skip == skip::facing_its_own && receivers.are_on_lit_side(number);
+        if (all_skip) missed |= facing;
         const unsigned open = ~movemask<N>(missed) & ((2u << (count - 1)) - 1);
         if (open == 0) return;
-        const unsigned skipped_by_some = may_skip != skip::nothing ? movemask<N>(facing) : 0;
+        const unsigned some_skip = may_skip != skip::nothing ? movemask<N>(facing) : 0;
         // Counter-clockwise on the plane.
         const ints turned = ints(area < 0.0f);
         unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
@@ -15530,7 +15531,7 @@ struct occlusion_kernel {
             const float one[12] = {values[0][k], values[1][k], values[2][k],  values[3][k],
                                    values[4][k], values[5][k], values[6][k],  values[7][k],
                                    values[8][k], values[9][k], values[10][k], values[11][k]};
-            const skip skips = (skipped_by_some >> k & 1) != 0 ? may_skip : skip::nothing;
+            const skip skips = (some_skip >> k & 1) != 0 ? may_skip : skip::nothing;
             for (int row = cells[1][k]; row <= cells[3][k]; ++row)
                 compare<N>(one, ids[k], skips, receivers.start(row, cells[0][k]),
                            receivers.start(row, cells[2][k] + 1));
@@ -24161,7 +24162,7 @@ class sliced_target {
             const glm::vec3 &n = shape_->normals[t[from]], &m = shape_->normals[t[to]];
             return cut_segment::end{at.x, -at.z, numeric::product(normals, n + static_cast<float>(f) * (m - n))};
         };
-        // Its square has to fit into a float.
+        // Scaled where its square would not fit into a float.
         glm::dvec3 facet = sign * numeric::cross(v[1] - v[0], v[2] - v[0]);
         const double size = numeric::abs(facet.x) + numeric::abs(facet.y) + numeric::abs(facet.z);
         if (!(size > 1e-15 && size < 1e15) && size > 0) facet = facet / size;
@@ -26210,20 +26211,17 @@ struct water_column {
 
     /// @throws invalid_input for a parameter out of its range
     INSONIFY_TAGGED auto pass(image_view<const float> picture) const {
-        using detail::require_not_negative, detail::require_range;
-        const auto above_0 = [](const char* name, float v) {
-            detail::require(v > 0 && numeric::is_finite(v), name, v, "above 0");
-        };
+        using detail::require_not_negative, detail::require_positive, detail::require_range;
         require_not_negative("water_column.first_range", first_range);
-        above_0("water_column.bin", bin);
+        require_positive("water_column.bin", bin);
         require_not_negative("water_column.noise", noise);
-        above_0("water_column.noise_range", noise_range);
+        require_positive("water_column.noise_range", noise_range);
         require_range("water_column.spreading", spreading, 0, 60, "0 to 60 dB");
         require_range("water_column.absorption_per_km", absorption_per_km, 0, 3000, "0 to 3000 dB");
         require_not_negative("water_column.volume", volume);
         require_not_negative("water_column.surface", surface);
-        above_0("water_column.surface_range", surface_range);
-        above_0("water_column.surface_tail", surface_tail);
+        require_positive("water_column.surface_range", surface_range);
+        require_positive("water_column.surface_tail", surface_tail);
         require_not_negative("water_column.waves", waves);
         require_range("water_column.wave_length", wave_length, 1, 1e9f, "1 to 1e9 pings");
         return detail::water_law<water_column>(*this, picture.width());
