@@ -9,13 +9,13 @@
 #include <insonify/io/png.hpp>
 
 #include <atomic>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <mutex>
 #include <thread>
 
-#include "../common/option_values.hpp"
 #include "../common/refusal.hpp"
 #include "chip.hpp"
 #include <CLI/CLI.hpp>
@@ -43,16 +43,16 @@ options parse(int argc, char** argv) {
     app.add_option("--out", o.out, "Folder; made if need be: images/<class>/<index>.png and manifest.csv")->required();
     app.add_option("--counts", o.counts, "How many cylinders, cubes and spheres (308,88,66)")
         ->delimiter(',')
-        ->check(examples::whole_number(0, 1'000'000));
+        ->check(CLI::Range(0, 1'000'000));
     app.add_option("--seabeds", o.seabeds, "They take turns: flat, ripples (flat,ripples)")
         ->delimiter(',')
         ->expected(1, 16)
         ->check(CLI::IsMember({"flat", "ripples"}));
-    app.add_option("--seed", o.seed, "Another seed is another set (1)")->check(examples::whole_number(0, UINT64_MAX));
+    app.add_option("--seed", o.seed, "Another seed is another set (1)")->check(CLI::Range(std::int64_t{0}, INT64_MAX));
     app.add_option("--chip", o.chip, "Metres a side (5)")->check(CLI::Range(0.5, 100.0));
     app.add_option("--pixels", o.pixels, "A side (128)")->check(CLI::Range(16, 4096));
     app.add_option("--threads", o.threads, "0: one for each hardware thread; never changes a byte")
-        ->check(examples::whole_number(0, 1024));
+        ->check(CLI::Range(0, 1024));
     try {
         app.parse(argc, argv);
         if (o.counts.size() != pings::class_names.size())
