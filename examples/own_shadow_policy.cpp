@@ -13,7 +13,7 @@ struct every_triangle {
     every_triangle build(std::span<const shadow::caster> all, const auto& light, const auto&, auto&) const {
         return {{all.begin(), all.end()}, shadow::light_frame(std::get<shadow::directional_light>(light)).to_light()};
     }
-    void test(const shadow::points& at, const shadow::shares& into) const {
+    void test(const shadow::points& at, const shadow::results& into) const {
         for (std::size_t i = 0; i < at.size(); ++i) {
             into.caster[i] = shadow::invalid_id;
             for (std::uint32_t c = 0; c < casters.size() && into.caster[i] == shadow::invalid_id; ++c)

@@ -9796,7 +9796,7 @@ INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/shadow/policy.hpp ----------------------------------------------------------------
 // The concept of a shadow policy: from casters and a light it builds an occlusion, which computes for any batch of
-// points the share of the light that arrives and the caster that blocks it.
+// points the fraction of the light that arrives and the caster that blocks it.
 //
 // The built-in policies (map, pcf, exact, penumbra) are models of these concepts, as are those of users:
 //
@@ -9851,7 +9851,7 @@ struct points {
 };
 
 /// Results for points, as arrays of the same length.
-struct shares {
+struct results {
     std::span<float> lit;             ///< fraction of the light that arrives, 0 to 1
     std::span<std::uint32_t> caster;  ///< lowest index of the casters that block the light's centre, or invalid_id
 
@@ -9881,9 +9881,9 @@ inline glm::dvec3 facet_of(std::span<const caster> casters, const points& at, st
 /// A light of any kind.
 using any_light = std::variant<directional_light, point_light>;
 
-/// `structure.test(points, shares)` sets all shares. It is called for several batches at the same time.
+/// `structure.test(points, results)` sets all results. It is called for several batches at the same time.
 template <class S>
-concept occlusion = requires(const S& structure, const points& at, const shares& into) {
+concept occlusion = requires(const S& structure, const points& at, const results& into) {
     structure.test(at, into);
 };
 
@@ -9928,18 +9928,18 @@ double radius_of(const P& p) {
 
 }  // namespace INSONIFY_FLAGS
 
-/// An occlusion that is faster for all points of a picture at once. `structure.screen(points, shares)` decides points
-/// that a cheap test can decide and sets the others to `unknown`; `structure.test(batches, shares, executor)` decides
+/// An occlusion that is faster for all points of a picture at once. `structure.screen(points, results)` decides points
+/// that a cheap test can decide and sets the others to `unknown`; `structure.test(batches, results, executor)` decides
 /// those, all batches together, of at most `max_batch` points each.
 template <class S>
 concept collective_occlusion = occlusion<S> &&
-    requires(const S& structure, const points& at, const shares& into, std::span<const points> all_at,
-             std::span<const shares> all_into, serial_executor& ex) {
+    requires(const S& structure, const points& at, const results& into, std::span<const points> all_at,
+             std::span<const results> all_into, serial_executor& ex) {
     structure.screen(at, into);
     structure.test(all_at, all_into, ex);
 };
 inline constexpr std::size_t max_batch = 65536;  ///< points, see collective_occlusion
-inline constexpr float unknown = -1;             ///< in shares::lit, between screening and testing
+inline constexpr float unknown = -1;             ///< in results::lit, between screening and testing
 
 /// Result of a test that may leave a triangle or a point undecided.
 enum class known : std::uint8_t { lit, dark, nothing };
@@ -15702,7 +15702,7 @@ class exact_occlusion {
     }
 
     /// See collective_occlusion.
-    void screen(const points& at, const shares& into) const {
+    void screen(const points& at, const results& into) const {
         std::fill(into.caster.begin(), into.caster.end(), invalid_id);
         if (planes_.empty()) return std::fill(into.lit.begin(), into.lit.end(), 1.0f);
         if (near_light_) return std::fill(into.lit.begin(), into.lit.end(), unknown);
@@ -15750,23 +15750,23 @@ class exact_occlusion {
     }
 
     /// See occlusion.
-    void test(const points& at, const shares& into) const {
+    void test(const points& at, const results& into) const {
         serial_executor serial;
         std::vector<points> parts;
-        std::vector<shares> results;
+        std::vector<results> into_parts;
         for (std::size_t first = 0; first < at.size(); first += max_batch) {
             const std::size_t count = (std::min)(max_batch, at.size() - first);
             parts.push_back({at.x.subspan(first, count), at.y.subspan(first, count), at.z.subspan(first, count),
                              at.mesh.subspan(first, count), at.triangle.subspan(first, count), at.casters,
                              at.face_light});
-            results.push_back({into.lit.subspan(first, count), into.caster.subspan(first, count)});
+            into_parts.push_back({into.lit.subspan(first, count), into.caster.subspan(first, count)});
         }
-        test(std::span<const points>(parts), std::span<const shares>(results), serial);
+        test(std::span<const points>(parts), std::span<const results>(into_parts), serial);
     }
 
     /// The same for many batches of at most `max_batch` points each.
     template <executor E>
-    void test(std::span<const points> at, std::span<const shares> into, E& ex) const {
+    void test(std::span<const points> at, std::span<const results> into, E& ex) const {
         // Each run of batches sorts its points by tile; then each tile collects its points from all runs.
         const std::size_t grain = (std::max)(std::size_t{8}, (at.size() + 127) / 128);
         std::vector<sorted_points> runs((at.size() + grain - 1) / grain);
@@ -15902,7 +15902,7 @@ class exact_occlusion {
     }
 
     /// Sorts the points of some batches by tile into `all`. Points without a caster on their tile are lit.
-    void sort(std::span<const points> at, std::span<const shares> into, std::size_t first, std::size_t last,
+    void sort(std::span<const points> at, std::span<const results> into, std::size_t first, std::size_t last,
               receivers_of& all, sorted_points& out, const insonify::detail::shared_pool& memory) const {
         std::array<std::size_t, 6> plane_start{};
         std::size_t tiles = 0;
@@ -15950,7 +15950,7 @@ class exact_occlusion {
         for (std::size_t i = 0; i < count; ++i) all[out.first + next[keys[i]]++] = found[i];
     }
     void test_tile(std::size_t tile_number, std::span<const detail::receiver> all, detail::receiver_cells& cells,
-                   std::span<const points> at, std::span<const shares> into) const {
+                   std::span<const points> at, std::span<const results> into) const {
         const auto [state, tile] = plane_of(tile_number);
         const glm::dvec2 size = state->tiles.tile();
         const auto columns = static_cast<std::size_t>(state->tiles.columns);
@@ -17307,7 +17307,7 @@ struct light_arrays {
 
     explicit light_arrays(std::size_t points, const shared_pool& memory = {})
         : lit(points, memory), caster(points, memory) {}
-    shadow::shares part(std::size_t first, std::size_t count) {
+    shadow::results part(std::size_t first, std::size_t count) {
         return {std::span(lit).subspan(first, count), std::span(caster).subspan(first, count)};
     }
 };
@@ -17322,13 +17322,13 @@ inline shadow::points batch(shadow::points all, bool face_light, std::uint32_t t
 
 /// Visits the batches of a list, and where their answers go.
 template <class Visit>
-void for_each_batch(const point_list& points, const shadow::shares& all, std::uint32_t targets, const Visit& visit) {
+void for_each_batch(const point_list& points, const shadow::results& all, std::uint32_t targets, const Visit& visit) {
     if (points.facing > 0)
         visit(batch(points.facing_points(), true, targets),
-              shadow::shares{all.lit.first(points.facing), all.caster.first(points.facing)});
+              shadow::results{all.lit.first(points.facing), all.caster.first(points.facing)});
     if (points.averted > 0)
         visit(batch(points.averted_points(), false, targets),
-              shadow::shares{all.lit.subspan(points.facing), all.caster.subspan(points.facing)});
+              shadow::results{all.lit.subspan(points.facing), all.caster.subspan(points.facing)});
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -17392,15 +17392,15 @@ class shadow_pass {
                 const rect box = box_of(i);
                 point_list points(room.points, 0, tile_pixels_);
                 find_points(box, room.shown, points);
-                const shadow::shares shares = room.light.part(0, points.size());
-                for_each_batch(points, shares, targets_, [&](const shadow::points& p, const shadow::shares& s) {
+                const shadow::results light = room.light.part(0, points.size());
+                for_each_batch(points, light, targets_, [&](const shadow::points& p, const shadow::results& s) {
                     if constexpr (is_collective)
                         occlusion.screen(p, s);
                     else
                         occlusion.test(p, s);
                 });
-                finish(points, shares);
-                if constexpr (is_collective) unknown[i] = mark_unknown(box, points, shares);
+                finish(points, light);
+                if constexpr (is_collective) unknown[i] = mark_unknown(box, points, light);
             }
         });
         if constexpr (is_collective) test_together(occlusion, unknown, ex);
@@ -17444,7 +17444,7 @@ class shadow_pass {
 
     /// Leaves marks on the pixels of a tile that screening does not decide.
     /// @returns their number
-    std::size_t mark_unknown(const rect& box, const point_list& points, const shadow::shares& light) {
+    std::size_t mark_unknown(const rect& box, const point_list& points, const shadow::results& light) {
         const auto width = static_cast<std::size_t>(images_.picture.width());
         pixel_marks& marks = images_.undecided.marks;
         marks.clear(box);
@@ -17478,17 +17478,17 @@ class shadow_pass {
         });
         const auto part = [&](std::size_t i) { return light.part(starts[i], lists[i].size()); };
         std::vector<shadow::points> at;
-        std::vector<shadow::shares> into;
+        std::vector<shadow::results> into;
         for (std::size_t i = 0; i < lists.size(); ++i)
-            for_each_batch(lists[i], part(i), targets_, [&](const shadow::points& p, const shadow::shares& s) {
+            for_each_batch(lists[i], part(i), targets_, [&](const shadow::points& p, const shadow::results& s) {
                 at.push_back(p);
                 into.push_back(s);
             });
-        occlusion.test(std::span<const shadow::points>(at), std::span<const shadow::shares>(into), ex);
+        occlusion.test(std::span<const shadow::points>(at), std::span<const shadow::results>(into), ex);
         ex.bulk(lists.size(), [&](std::size_t i) { finish(lists[i], part(i)); });
     }
 
-    void finish(const point_list& points, const shadow::shares& light) {
+    void finish(const point_list& points, const shadow::results& light) {
         for (std::size_t i = 0; i < points.size(); ++i)
             finish(points.pixel(i), i < points.facing, points.caster(i), light.lit[i], light.caster[i]);
     }
@@ -22603,7 +22603,7 @@ class map_occlusion {
     }
 
     /// See occlusion.
-    void test(const points& at, const shares& into) const {
+    void test(const points& at, const results& into) const {
         for (std::size_t i = 0; i < at.size(); ++i) {
             into.lit[i] = 1;
             into.caster[i] = invalid_id;
@@ -22613,9 +22613,9 @@ class map_occlusion {
             const bool is_grazed = !plane.faces_light && facet != glm::dvec3(0);
             const std::size_t count = (std::min)(maps_.size(), static_cast<std::size_t>(at.casters));
             for (std::size_t k = 0; k < count && into.lit[i] > 0; ++k) {
-                const float share = lit(maps_[k], plane, radius_);
-                into.lit[i] = (std::min)(into.lit[i], share);
-                if (share < 0.5f && into.caster[i] == invalid_id) into.caster[i] = static_cast<std::uint32_t>(k);
+                const float fraction = lit(maps_[k], plane, radius_);
+                into.lit[i] = (std::min)(into.lit[i], fraction);
+                if (fraction < 0.5f && into.caster[i] == invalid_id) into.caster[i] = static_cast<std::uint32_t>(k);
             }
             if (!is_grazed) continue;
             // It blocks its own light.
@@ -22722,11 +22722,11 @@ class penumbra_occlusion {
     }
 
     /// See occlusion.
-    void test(const points& at, const shares& into) const {
+    void test(const points& at, const results& into) const {
         lights_.front().blocked.test(at, into);
         insonify::detail::uninitialized_vector<float> lit(at.size());
         insonify::detail::uninitialized_vector<std::uint32_t> blocking(at.size());
-        const shares one{lit, blocking};
+        const results one{lit, blocking};
         for (std::size_t i = 1; i < lights_.size(); ++i) {
             lights_[i].blocked.test(at, one);
             add(i, at, one, into);
@@ -22736,13 +22736,13 @@ class penumbra_occlusion {
 
     /// The same for many batches of at most `max_batch` points each, all of them at once.
     template <executor E>
-    void test(std::span<const points> at, std::span<const shares> into, E& ex) const {
+    void test(std::span<const points> at, std::span<const results> into, E& ex) const {
         lights_.front().blocked.test(at, into, ex);
         std::size_t count = 0;
         for (const points& some : at) count += some.size();
         insonify::detail::uninitialized_vector<float> lit(count);
         insonify::detail::uninitialized_vector<std::uint32_t> blocking(count);
-        std::vector<shares> one;
+        std::vector<results> one;
         count = 0;
         for (const points& some : at) {
             one.push_back(
@@ -22750,10 +22750,10 @@ class penumbra_occlusion {
             count += some.size();
         }
         for (std::size_t i = 1; i < lights_.size(); ++i) {
-            lights_[i].blocked.test(at, std::span<const shares>(one), ex);
+            lights_[i].blocked.test(at, std::span<const results>(one), ex);
             ex.bulk(at.size(), [&](std::size_t k) { add(i, at[k], one[k], into[k]); });
         }
-        for (const shares& some : into) divide(some);
+        for (const results& some : into) divide(some);
     }
 
   private:
@@ -22791,7 +22791,7 @@ class penumbra_occlusion {
     }
 
     /// Adds what one sample lights of the points whose facets face it on the side of the light's middle.
-    void add(std::size_t number, const points& at, const shares& one, const shares& into) const {
+    void add(std::size_t number, const points& at, const results& one, const results& into) const {
         const sample &middle = lights_.front(), &here = lights_[number];
         glm::dvec3 to_middle = middle.toward({}), to_here = here.toward({});
         const bool is_near = std::holds_alternative<point_light>(middle.light);
@@ -22807,7 +22807,7 @@ class penumbra_occlusion {
             if (faces) into.lit[i] += one.lit[i];
         }
     }
-    void divide(const shares& into) const {
+    void divide(const results& into) const {
         for (float& lit : into.lit) lit /= static_cast<float>(samples_);
     }
 
@@ -25646,7 +25646,7 @@ inline shadow::any_light light_of(const overhead& rig) {
 }  // namespace INSONIFY_FLAGS
 
 /// Fraction of the light that reaches points, and the casters of their shadows.
-struct point_light_shares {
+struct occlusion_results {
     std::vector<float> lit;             ///< 0 to 1
     std::vector<std::uint16_t> shadow;  ///< as in labels::shadow: 0, an instance, or labels::by_seabed
 };
@@ -25669,8 +25669,8 @@ class scene_occlusion {
 
     /// @param at  in the world, within the bounds
     template <executor_argument E = serial_executor>
-    point_light_shares test(std::span<const glm::dvec3> at, E&& ex = {}) const {
-        point_light_shares all{std::vector<float>(at.size()), std::vector<std::uint16_t>(at.size())};
+    occlusion_results test(std::span<const glm::dvec3> at, E&& ex = {}) const {
+        occlusion_results all{std::vector<float>(at.size()), std::vector<std::uint16_t>(at.size())};
         bulk_ranges(ex, at.size(), max_points, [&](std::size_t first, std::size_t last) {
             const std::size_t count = last - first;
             std::vector<double> x(count), y(count), z(count);
@@ -25682,7 +25682,7 @@ class scene_occlusion {
             const std::vector<std::uint32_t> none(count, shadow::invalid_id);
             std::vector<std::uint32_t> caster(count);
             built_.test(shadow::points{x, y, z, none, none},
-                        shadow::shares{std::span(all.lit).subspan(first, count), caster});
+                        shadow::results{std::span(all.lit).subspan(first, count), caster});
             for (std::size_t i = 0; i < count; ++i)
                 if (caster[i] != shadow::invalid_id) all.shadow[first + i] = detail::shadow_label(caster[i], targets_);
         });

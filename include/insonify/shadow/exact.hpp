@@ -49,7 +49,7 @@ class exact_occlusion {
     }
 
     /// See collective_occlusion.
-    void screen(const points& at, const shares& into) const {
+    void screen(const points& at, const results& into) const {
         std::fill(into.caster.begin(), into.caster.end(), invalid_id);
         if (planes_.empty()) return std::fill(into.lit.begin(), into.lit.end(), 1.0f);
         if (near_light_) return std::fill(into.lit.begin(), into.lit.end(), unknown);
@@ -97,23 +97,23 @@ class exact_occlusion {
     }
 
     /// See occlusion.
-    void test(const points& at, const shares& into) const {
+    void test(const points& at, const results& into) const {
         serial_executor serial;
         std::vector<points> parts;
-        std::vector<shares> results;
+        std::vector<results> into_parts;
         for (std::size_t first = 0; first < at.size(); first += max_batch) {
             const std::size_t count = (std::min)(max_batch, at.size() - first);
             parts.push_back({at.x.subspan(first, count), at.y.subspan(first, count), at.z.subspan(first, count),
                              at.mesh.subspan(first, count), at.triangle.subspan(first, count), at.casters,
                              at.face_light});
-            results.push_back({into.lit.subspan(first, count), into.caster.subspan(first, count)});
+            into_parts.push_back({into.lit.subspan(first, count), into.caster.subspan(first, count)});
         }
-        test(std::span<const points>(parts), std::span<const shares>(results), serial);
+        test(std::span<const points>(parts), std::span<const results>(into_parts), serial);
     }
 
     /// The same for many batches of at most `max_batch` points each.
     template <executor E>
-    void test(std::span<const points> at, std::span<const shares> into, E& ex) const {
+    void test(std::span<const points> at, std::span<const results> into, E& ex) const {
         // Each run of batches sorts its points by tile; then each tile collects its points from all runs.
         const std::size_t grain = (std::max)(std::size_t{8}, (at.size() + 127) / 128);
         std::vector<sorted_points> runs((at.size() + grain - 1) / grain);
@@ -249,7 +249,7 @@ class exact_occlusion {
     }
 
     /// Sorts the points of some batches by tile into `all`. Points without a caster on their tile are lit.
-    void sort(std::span<const points> at, std::span<const shares> into, std::size_t first, std::size_t last,
+    void sort(std::span<const points> at, std::span<const results> into, std::size_t first, std::size_t last,
               receivers_of& all, sorted_points& out, const insonify::detail::shared_pool& memory) const {
         std::array<std::size_t, 6> plane_start{};
         std::size_t tiles = 0;
@@ -297,7 +297,7 @@ class exact_occlusion {
         for (std::size_t i = 0; i < count; ++i) all[out.first + next[keys[i]]++] = found[i];
     }
     void test_tile(std::size_t tile_number, std::span<const detail::receiver> all, detail::receiver_cells& cells,
-                   std::span<const points> at, std::span<const shares> into) const {
+                   std::span<const points> at, std::span<const results> into) const {
         const auto [state, tile] = plane_of(tile_number);
         const glm::dvec2 size = state->tiles.tile();
         const auto columns = static_cast<std::size_t>(state->tiles.columns);

@@ -51,7 +51,7 @@ class map_occlusion {
     }
 
     /// See occlusion.
-    void test(const points& at, const shares& into) const {
+    void test(const points& at, const results& into) const {
         for (std::size_t i = 0; i < at.size(); ++i) {
             into.lit[i] = 1;
             into.caster[i] = invalid_id;
@@ -61,9 +61,9 @@ class map_occlusion {
             const bool is_grazed = !plane.faces_light && facet != glm::dvec3(0);
             const std::size_t count = (std::min)(maps_.size(), static_cast<std::size_t>(at.casters));
             for (std::size_t k = 0; k < count && into.lit[i] > 0; ++k) {
-                const float share = lit(maps_[k], plane, radius_);
-                into.lit[i] = (std::min)(into.lit[i], share);
-                if (share < 0.5f && into.caster[i] == invalid_id) into.caster[i] = static_cast<std::uint32_t>(k);
+                const float fraction = lit(maps_[k], plane, radius_);
+                into.lit[i] = (std::min)(into.lit[i], fraction);
+                if (fraction < 0.5f && into.caster[i] == invalid_id) into.caster[i] = static_cast<std::uint32_t>(k);
             }
             if (!is_grazed) continue;
             // It blocks its own light.

@@ -37,11 +37,11 @@ class penumbra_occlusion {
     }
 
     /// See occlusion.
-    void test(const points& at, const shares& into) const {
+    void test(const points& at, const results& into) const {
         lights_.front().blocked.test(at, into);
         insonify::detail::uninitialized_vector<float> lit(at.size());
         insonify::detail::uninitialized_vector<std::uint32_t> blocking(at.size());
-        const shares one{lit, blocking};
+        const results one{lit, blocking};
         for (std::size_t i = 1; i < lights_.size(); ++i) {
             lights_[i].blocked.test(at, one);
             add(i, at, one, into);
@@ -51,13 +51,13 @@ class penumbra_occlusion {
 
     /// The same for many batches of at most `max_batch` points each, all of them at once.
     template <executor E>
-    void test(std::span<const points> at, std::span<const shares> into, E& ex) const {
+    void test(std::span<const points> at, std::span<const results> into, E& ex) const {
         lights_.front().blocked.test(at, into, ex);
         std::size_t count = 0;
         for (const points& some : at) count += some.size();
         insonify::detail::uninitialized_vector<float> lit(count);
         insonify::detail::uninitialized_vector<std::uint32_t> blocking(count);
-        std::vector<shares> one;
+        std::vector<results> one;
         count = 0;
         for (const points& some : at) {
             one.push_back(
@@ -65,10 +65,10 @@ class penumbra_occlusion {
             count += some.size();
         }
         for (std::size_t i = 1; i < lights_.size(); ++i) {
-            lights_[i].blocked.test(at, std::span<const shares>(one), ex);
+            lights_[i].blocked.test(at, std::span<const results>(one), ex);
             ex.bulk(at.size(), [&](std::size_t k) { add(i, at[k], one[k], into[k]); });
         }
-        for (const shares& some : into) divide(some);
+        for (const results& some : into) divide(some);
     }
 
   private:
@@ -106,7 +106,7 @@ class penumbra_occlusion {
     }
 
     /// Adds what one sample lights of the points whose facets face it on the side of the light's middle.
-    void add(std::size_t number, const points& at, const shares& one, const shares& into) const {
+    void add(std::size_t number, const points& at, const results& one, const results& into) const {
         const sample &middle = lights_.front(), &here = lights_[number];
         glm::dvec3 to_middle = middle.toward({}), to_here = here.toward({});
         const bool is_near = std::holds_alternative<point_light>(middle.light);
@@ -122,7 +122,7 @@ class penumbra_occlusion {
             if (faces) into.lit[i] += one.lit[i];
         }
     }
-    void divide(const shares& into) const {
+    void divide(const results& into) const {
         for (float& lit : into.lit) lit /= static_cast<float>(samples_);
     }
 

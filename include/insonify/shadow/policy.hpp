@@ -1,5 +1,5 @@
 // The concept of a shadow policy: from casters and a light it builds an occlusion, which computes for any batch of
-// points the share of the light that arrives and the caster that blocks it.
+// points the fraction of the light that arrives and the caster that blocks it.
 //
 // The built-in policies (map, pcf, exact, penumbra) are models of these concepts, as are those of users:
 //
@@ -65,7 +65,7 @@ struct points {
 };
 
 /// Results for points, as arrays of the same length.
-struct shares {
+struct results {
     std::span<float> lit;             ///< fraction of the light that arrives, 0 to 1
     std::span<std::uint32_t> caster;  ///< lowest index of the casters that block the light's centre, or invalid_id
 
@@ -95,9 +95,9 @@ inline glm::dvec3 facet_of(std::span<const caster> casters, const points& at, st
 /// A light of any kind.
 using any_light = std::variant<directional_light, point_light>;
 
-/// `structure.test(points, shares)` sets all shares. It is called for several batches at the same time.
+/// `structure.test(points, results)` sets all results. It is called for several batches at the same time.
 template <class S>
-concept occlusion = requires(const S& structure, const points& at, const shares& into) {
+concept occlusion = requires(const S& structure, const points& at, const results& into) {
     structure.test(at, into);
 };
 
@@ -142,18 +142,18 @@ double radius_of(const P& p) {
 
 }  // namespace INSONIFY_FLAGS
 
-/// An occlusion that is faster for all points of a picture at once. `structure.screen(points, shares)` decides points
-/// that a cheap test can decide and sets the others to `unknown`; `structure.test(batches, shares, executor)` decides
+/// An occlusion that is faster for all points of a picture at once. `structure.screen(points, results)` decides points
+/// that a cheap test can decide and sets the others to `unknown`; `structure.test(batches, results, executor)` decides
 /// those, all batches together, of at most `max_batch` points each.
 template <class S>
 concept collective_occlusion = occlusion<S> &&
-    requires(const S& structure, const points& at, const shares& into, std::span<const points> all_at,
-             std::span<const shares> all_into, serial_executor& ex) {
+    requires(const S& structure, const points& at, const results& into, std::span<const points> all_at,
+             std::span<const results> all_into, serial_executor& ex) {
     structure.screen(at, into);
     structure.test(all_at, all_into, ex);
 };
 inline constexpr std::size_t max_batch = 65536;  ///< points, see collective_occlusion
-inline constexpr float unknown = -1;             ///< in shares::lit, between screening and testing
+inline constexpr float unknown = -1;             ///< in results::lit, between screening and testing
 
 /// Result of a test that may leave a triangle or a point undecided.
 enum class known : std::uint8_t { lit, dark, nothing };

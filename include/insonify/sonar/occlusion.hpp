@@ -39,7 +39,7 @@ inline shadow::any_light light_of(const overhead& rig) {
 }  // namespace INSONIFY_FLAGS
 
 /// Fraction of the light that reaches points, and the casters of their shadows.
-struct point_light_shares {
+struct occlusion_results {
     std::vector<float> lit;             ///< 0 to 1
     std::vector<std::uint16_t> shadow;  ///< as in labels::shadow: 0, an instance, or labels::by_seabed
 };
@@ -62,8 +62,8 @@ class scene_occlusion {
 
     /// @param at  in the world, within the bounds
     template <executor_argument E = serial_executor>
-    point_light_shares test(std::span<const glm::dvec3> at, E&& ex = {}) const {
-        point_light_shares all{std::vector<float>(at.size()), std::vector<std::uint16_t>(at.size())};
+    occlusion_results test(std::span<const glm::dvec3> at, E&& ex = {}) const {
+        occlusion_results all{std::vector<float>(at.size()), std::vector<std::uint16_t>(at.size())};
         bulk_ranges(ex, at.size(), max_points, [&](std::size_t first, std::size_t last) {
             const std::size_t count = last - first;
             std::vector<double> x(count), y(count), z(count);
@@ -75,7 +75,7 @@ class scene_occlusion {
             const std::vector<std::uint32_t> none(count, shadow::invalid_id);
             std::vector<std::uint32_t> caster(count);
             built_.test(shadow::points{x, y, z, none, none},
-                        shadow::shares{std::span(all.lit).subspan(first, count), caster});
+                        shadow::results{std::span(all.lit).subspan(first, count), caster});
             for (std::size_t i = 0; i < count; ++i)
                 if (caster[i] != shadow::invalid_id) all.shadow[first + i] = detail::shadow_label(caster[i], targets_);
         });

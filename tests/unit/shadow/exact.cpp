@@ -291,10 +291,10 @@ TEST_CASE("Points that face away are named after the first caster that blocks th
             CAPTURE(elevation, list.size());
             const auto tested = [&] {
                 lit::answers lit(lit_list.size()), dark(list.size());
-                const shadow::shares into[] = {lit, dark};
+                const shadow::results into[] = {lit, dark};
                 shadow::exact{}
                     .build(casters, light, {merge(lit_list.box(), list.box())}, serial)
-                    .test(std::span<const shadow::points>(at), std::span<const shadow::shares>(into), serial);
+                    .test(std::span<const shadow::points>(at), std::span<const shadow::results>(into), serial);
                 return std::pair(lit.caster, dark.caster);
             };
             const auto all = tested();
@@ -456,9 +456,9 @@ TEST_CASE("Exact results are the same for any executor and any batches of points
 
         lit::answers parts(points.size());
         const shadow::points all = points;
-        const shadow::shares into = parts;
+        const shadow::results into = parts;
         std::vector<shadow::points> at;
-        std::vector<shadow::shares> to;
+        std::vector<shadow::results> to;
         std::size_t first = 0;
         for (std::size_t i = 0; first < points.size(); ++i) {
             const std::size_t some = std::min(points.size() - first, i % 5 == 0   ? 65536u
@@ -469,7 +469,7 @@ TEST_CASE("Exact results are the same for any executor and any batches of points
             to.push_back({into.lit.subspan(first, some), into.caster.subspan(first, some)});
             first += some;
         }
-        built.test(std::span<const shadow::points>(at), std::span<const shadow::shares>(to), pool);
+        built.test(std::span<const shadow::points>(at), std::span<const shadow::results>(to), pool);
         CHECK((parts.lit == expected.lit));
         CHECK((parts.caster == expected.caster));
     }

@@ -63,10 +63,10 @@ struct answers {
     std::vector<std::uint32_t> caster;
 
     explicit answers(std::size_t count) : lit(count, -1.0f), caster(count, 7) {}
-    operator shadow::shares() { return {lit, caster}; }
+    operator shadow::results() { return {lit, caster}; }
     std::vector<bool> dark() const {
         std::vector<bool> all;
-        for (const float share : lit) all.push_back(share == 0);
+        for (const float fraction : lit) all.push_back(fraction == 0);
         return all;
     }
 };

@@ -184,14 +184,14 @@ TEST_CASE("A penumbra is the same point by point and for many batches at once") 
     const lit::answers one = lit::test(built, points);
     lit::answers other(points.size());
     const shadow::points all = points;
-    const shadow::shares into = other;
+    const shadow::results into = other;
     const shadow::points at[] = {
         {all.x.first(1000), all.y.first(1000), all.z.first(1000), all.mesh.first(1000), all.triangle.first(1000)},
         {all.x.subspan(1000), all.y.subspan(1000), all.z.subspan(1000), all.mesh.subspan(1000),
          all.triangle.subspan(1000)}};
-    const shadow::shares to[] = {{into.lit.first(1000), into.caster.first(1000)},
-                                 {into.lit.subspan(1000), into.caster.subspan(1000)}};
-    built.test(std::span<const shadow::points>(at), std::span<const shadow::shares>(to), ex);
+    const shadow::results to[] = {{into.lit.first(1000), into.caster.first(1000)},
+                                  {into.lit.subspan(1000), into.caster.subspan(1000)}};
+    built.test(std::span<const shadow::points>(at), std::span<const shadow::results>(to), ex);
     CHECK(one.lit == other.lit);
     CHECK(one.caster == other.caster);
     CHECK(std::count_if(one.lit.begin(), one.lit.end(),

@@ -45,7 +45,7 @@ struct light_arrays {
 
     explicit light_arrays(std::size_t points, const shared_pool& memory = {})
         : lit(points, memory), caster(points, memory) {}
-    shadow::shares part(std::size_t first, std::size_t count) {
+    shadow::results part(std::size_t first, std::size_t count) {
         return {std::span(lit).subspan(first, count), std::span(caster).subspan(first, count)};
     }
 };
@@ -60,13 +60,13 @@ inline shadow::points batch(shadow::points all, bool face_light, std::uint32_t t
 
 /// Visits the batches of a list, and where their answers go.
 template <class Visit>
-void for_each_batch(const point_list& points, const shadow::shares& all, std::uint32_t targets, const Visit& visit) {
+void for_each_batch(const point_list& points, const shadow::results& all, std::uint32_t targets, const Visit& visit) {
     if (points.facing > 0)
         visit(batch(points.facing_points(), true, targets),
-              shadow::shares{all.lit.first(points.facing), all.caster.first(points.facing)});
+              shadow::results{all.lit.first(points.facing), all.caster.first(points.facing)});
     if (points.averted > 0)
         visit(batch(points.averted_points(), false, targets),
-              shadow::shares{all.lit.subspan(points.facing), all.caster.subspan(points.facing)});
+              shadow::results{all.lit.subspan(points.facing), all.caster.subspan(points.facing)});
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS

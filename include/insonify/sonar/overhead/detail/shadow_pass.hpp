@@ -60,15 +60,15 @@ class shadow_pass {
                 const rect box = box_of(i);
                 point_list points(room.points, 0, tile_pixels_);
                 find_points(box, room.shown, points);
-                const shadow::shares shares = room.light.part(0, points.size());
-                for_each_batch(points, shares, targets_, [&](const shadow::points& p, const shadow::shares& s) {
+                const shadow::results light = room.light.part(0, points.size());
+                for_each_batch(points, light, targets_, [&](const shadow::points& p, const shadow::results& s) {
                     if constexpr (is_collective)
                         occlusion.screen(p, s);
                     else
                         occlusion.test(p, s);
                 });
-                finish(points, shares);
-                if constexpr (is_collective) unknown[i] = mark_unknown(box, points, shares);
+                finish(points, light);
+                if constexpr (is_collective) unknown[i] = mark_unknown(box, points, light);
             }
         });
         if constexpr (is_collective) test_together(occlusion, unknown, ex);
@@ -112,7 +112,7 @@ class shadow_pass {
 
     /// Leaves marks on the pixels of a tile that screening does not decide.
     /// @returns their number
-    std::size_t mark_unknown(const rect& box, const point_list& points, const shadow::shares& light) {
+    std::size_t mark_unknown(const rect& box, const point_list& points, const shadow::results& light) {
         const auto width = static_cast<std::size_t>(images_.picture.width());
         pixel_marks& marks = images_.undecided.marks;
         marks.clear(box);
@@ -146,17 +146,17 @@ class shadow_pass {
         });
         const auto part = [&](std::size_t i) { return light.part(starts[i], lists[i].size()); };
         std::vector<shadow::points> at;
-        std::vector<shadow::shares> into;
+        std::vector<shadow::results> into;
         for (std::size_t i = 0; i < lists.size(); ++i)
-            for_each_batch(lists[i], part(i), targets_, [&](const shadow::points& p, const shadow::shares& s) {
+            for_each_batch(lists[i], part(i), targets_, [&](const shadow::points& p, const shadow::results& s) {
                 at.push_back(p);
                 into.push_back(s);
             });
-        occlusion.test(std::span<const shadow::points>(at), std::span<const shadow::shares>(into), ex);
+        occlusion.test(std::span<const shadow::points>(at), std::span<const shadow::results>(into), ex);
         ex.bulk(lists.size(), [&](std::size_t i) { finish(lists[i], part(i)); });
     }
 
-    void finish(const point_list& points, const shadow::shares& light) {
+    void finish(const point_list& points, const shadow::results& light) {
         for (std::size_t i = 0; i < points.size(); ++i)
             finish(points.pixel(i), i < points.facing, points.caster(i), light.lit[i], light.caster[i]);
     }
