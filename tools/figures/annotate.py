@@ -91,11 +91,13 @@ def direction(turn):
     return DIRECTIONS[(turn + 2) % 4] if turn >= 4 else DIRECTIONS[turn]
 
 
-# The chips of README.md's picture, of the guide's data set `boats`.
-CHIPS = ["ship/000000/000000002", "plane/000000/000000009", "ship/000000/000000004", "plane/000000/000000008",
-         "ship/000000/000000005", "tyre/000000/000000010", "plane/000000/000000006", "empty/000000/000000014"]
 # A recorded line: both sides of 29.98 m in slant range, forward down. From CIDCO-dev/OpenSidescan, MIT licence.
 REAL_LINE = pathlib.Path("../shared/reference/sidescan_scotsman/waterfall_u8_linear.png")
+REAL_RANGE, REAL_COLUMN, REAL_ROW = 29.98, 29.98 / 1024, 0.067  # metres: to a side, from column to column, row to row
+# The chips of README.md's picture: generated ones of the guide's data set `boats`, and parts of the recorded line (column and
+# row of the middle, metres).
+CHIPS = ["ship/000000/000000002", ("ship", 1390, 270, 15), "ship/000000/000000005", "empty/000000/000000014",
+         ("bottom", 450, 130, 10), "plane/000000/000000008", "plane/000000/000000006", "tyre/000000/000000010"]
 
 
 def copper(gray):
@@ -103,8 +105,23 @@ def copper(gray):
     return Image.merge("RGB", [gray.point(lambda v, k=k: min(255, round(k * v))) for k in (1.25, 0.7812, 0.4975)])
 
 
+def generated_chip(data_set, name, row):
+    """The picture of a chip, its caption, its extent in range, and where the sound travels."""
+    kind = name.split("/")[0]
+    picture = Image.open(data_set / "images" / f"{name}.png").convert("L")
+    words = "generated: " + ("bottom" if kind == "empty" else kind)
+    return picture, words, float(row["chip_m"]), direction(int(row["turn"]))
+
+
+def recorded_chip(line, kind, column, row, metres):
+    """The same of a square part of a recorded line around a column and a row."""
+    x, y = metres / 2 / REAL_COLUMN, metres / 2 / REAL_ROW
+    picture = line.crop((round(column - x), round(row - y), round(column + x), round(row + y)))
+    return picture, f"recorded: {kind}", metres, (1 if column > line.width / 2 else -1, 0)
+
+
 def front(source, target):
-    """The guide's survey line beside a recorded one, above chips of the guide's data set.
+    """The guide's survey line beside a recorded one, above chips of the guide's data set and of the recorded line.
 
     Both lines have slant range across, with the track in the middle; chips have their extent in range.
     """
@@ -114,7 +131,8 @@ def front(source, target):
     line = line.crop((0, round(line.height - 43 * metre), line.width, round(line.height - 10 * metre)))
     panels = [("generated", line, 32)]
     if REAL_LINE.exists():
-        panels.append(("recorded, CIDCO OpenSidescan (MIT)", Image.open(REAL_LINE).convert("L"), 29.98))
+        recorded = Image.open(REAL_LINE).convert("L")
+        panels.append(("recorded, CIDCO OpenSidescan (MIT)", recorded, REAL_RANGE))
     sheet = Image.new("RGB", (2 * width + 10, height + side + 96), PAPER)
     draw = ImageDraw.Draw(sheet)
     for k, (words, panel, metres) in enumerate(panels):
@@ -128,14 +146,18 @@ def front(source, target):
     with (source / "boats/manifest.csv").open(newline="") as table:
         rows = {row["file"]: row for row in csv.DictReader(table)}
     for k, chip in enumerate(CHIPS):
-        picture = Image.open(source / "boats/images" / f"{chip}.png").convert("L").resize((side, side))
-        left = k * (side + gap)
+        if isinstance(chip, str):
+            picture, words, metres, (x, y) = generated_chip(source / "boats", chip, rows[f"images/{chip}.png"])
+        elif REAL_LINE.exists():
+            picture, words, metres, (x, y) = recorded_chip(recorded, *chip)
+        else:
+            continue
+        left, middle = k * (side + gap), k * (side + gap) + side / 2
+        picture = picture.resize((side, side), Image.Resampling.BOX)
         sheet.paste(picture.convert("RGB").point(lambda v: round(v / 36.4) * 36), (left, height + 40))
-        name, row = chip.split("/")[0], rows[f"images/{chip}.png"]
-        text(draw, left + side / 2, height + side + 44, "generated: " + ("bottom" if name == "empty" else name))
-        text(draw, left + side / 2 - 14, height + side + 60, f"{float(row['chip_m']):.1f} m")
-        (x, y), middle = direction(int(row["turn"])), (left + side / 2 + 24, height + side + 66)
-        arrow(draw, middle[0] - 7 * x, middle[1] - 7 * y, 14, (x, y))
+        text(draw, middle, height + side + 44, words)
+        text(draw, middle - 14, height + side + 60, f"{metres:.1f} m")
+        arrow(draw, middle + 24 - 7 * x, height + side + 66 - 7 * y, 14, (x, y))
     text(draw, width + 5, height + side + 79, "Chips: extent in range; arrows point away from the sonar.")
     save(sheet, target.parent / "front.png", 64)
 
