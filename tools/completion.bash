@@ -12,6 +12,7 @@ _insonify_generate() {
         --mesh-up) values="y z" ;;
         --place) values="third anywhere" ;;
         --colormap) values="gray copper" ;;
+        --display) values="amplitude power decibels" ;;
         --format) values="png16 npy pfm webdataset" ;;
         --noise) values="none speckle gaussian poisson rayleigh seabed" ;;
         --seabeds) values="ripples mud rock sand mixed heightmap" ;;
@@ -25,11 +26,11 @@ _insonify_generate() {
         COMPREPLY=($(compgen -P "$done" -W "$values" -- "${current##*,}"))
     elif [[ $current == -* ]]; then
         COMPREPLY=($(compgen -W "
-            --altitude --aspect --aspects --beam --burial --chip --colormap --config --count --demo --distance
-            --dry-run --empty --first --format --grazing --heightmap --heightmap-scale --heightmap-spacing --help
-            --input-limit --intensity --match --mesh --mesh-up --mode --noise --out --per-class --pixels --place
-            --plan --preview --recipe --reference --reflectivity --seabeds --seed --shard --size --sky --target-size
-            --targets --threads --tilt --verify --visible-share" -- "$current"))
+            --altitude --aspect --aspects --beam --burial --chip --colormap --config --count --demo --display
+            --display-range --distance --dry-run --empty --first --format --grazing --heightmap --heightmap-scale
+            --heightmap-spacing --help --input-limit --intensity --match --mesh --mesh-up --mode --noise --out
+            --per-class --pixels --place --plan --preview --recipe --reference --reflectivity --seabeds --seed
+            --shard --size --sky --target-size --targets --threads --tilt --verify --visible-share --white" -- "$current"))
     fi
 }
 # Options of a tool that are listed here.

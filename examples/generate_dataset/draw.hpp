@@ -152,7 +152,11 @@ in::image<float> render_side_scan(const options& o, const plan& p, const shared_
         }
     d.labels = std::move(heard.labels);
     d.geometry = geometry_of(rig, scene.targets.front(), d.labels.targets.front());
-    return in::apply(std::move(heard.image), in::display{.white = static_cast<float>(p.white)}, ex);
+    const auto white = static_cast<float>(p.white), decibels = static_cast<float>(p.display_range);
+    if (p.display == "decibels")
+        return in::apply(std::move(heard.image), in::decibel_display{.white = white, .range = decibels}, ex);
+    const float exponent = p.display == "power" ? 1.0f : 0.5f;
+    return in::apply(std::move(heard.image), in::display{.white = white, .exponent = exponent}, ex);
 }
 
 inline rendered_image draw(const options& o, const plan& p, const shared_inputs& shared, auto& ex) {

@@ -46,6 +46,16 @@ void check_geometry(const options& o) {
                                                      " m, exceed 100000 m; reduce one of them");
 }
 
+/// Displays are a sonar's; only one in decibels has a range.
+void check_display(const options& o, const is_given& given) {
+    for (const char* const name : {"--display", "--white", "--display-range"})
+        if (given(name) && !o.is_sonar() && o.is_overhead())
+            throw CLI::ValidationError(name, "needs a side-scan mode, such as --mode slant_range");
+    const bool has_range = o.display == "decibels" || (o.display.empty() && o.is_sonar()) || o.table;
+    if (o.display_range && !has_range)
+        throw CLI::ValidationError("--display-range", "needs --display decibels; other displays have no range");
+}
+
 options parsed(int argc, const char* const* argv,
                const std::function<void(const CLI::App&, const CLI::ParseError&)>& refuse) {
     options o;
@@ -72,7 +82,8 @@ options parsed(int argc, const char* const* argv,
     app.config_formatter(std::make_shared<strict_config>(app));
 
     std::uint64_t input_limit = examples::usual_input_limit >> 20;
-    std::string shard, plan, aspects, target_size, aspect, tilt, burial, altitude, grazing, distance, beam;
+    std::string shard, plan, aspects, target_size, aspect, tilt, burial, altitude, grazing, distance, beam, white,
+        display_range;
     const CLI::Validator target_names =
         CLI::IsMember({"cylinder", "cube", "cone", "sphere", "ship", "plane", "truncated_cone", "wedge", "tyre", "pipe",
                        "boulder", "crate", "lobster_pot"});
@@ -216,6 +227,18 @@ options parsed(int argc, const char* const* argv,
     app.add_option("--colormap", o.colormap, "gray or copper (gray)")
         ->check(CLI::IsMember({"gray", "copper"}))
         ->group(look);
+    app.add_option("--display", o.display,
+                   "Side-scan images: gray by amplitude, power or decibels (amplitude; recipe sonar: any of them)")
+        ->check(CLI::IsMember({"amplitude", "power", "decibels"}))
+        ->group(look);
+    app.add_option(
+           "--white", white,
+           "Side-scan images: range of the intensity shown white; bottoms return about 0.5 (4:12; recipe sonar:\n"
+           "2:32)")
+        ->group(look);
+    app.add_option("--display-range", display_range,
+                   "Displays in decibels: range of decibels from black to white (40; recipe sonar: the instrument's)")
+        ->group(look);
 
     try {
         app.parse(argc, argv);
@@ -265,6 +288,13 @@ options parsed(int argc, const char* const* argv,
         take("--grazing", grazing, o.grazing, 0.01, 90);
         take("--distance", distance, o.distance, 0, 1e3);
         take("--beam", beam, o.beam, 1e-3, 20);
+        const auto take_if_given = [&](const char* name, const std::string& text, std::optional<range>& into,
+                                       double lowest, double highest) {
+            if (!text.empty()) take(name, text, into.emplace(), lowest, highest);
+        };
+        take_if_given("--white", white, o.white, 1e-3, 1e6);
+        take_if_given("--display-range", display_range, o.display_range, 1, 400);
+        check_display(o, given);
         for (const noise_step& step : noise_steps(o))
             if (step.kind == "seabed" && o.is_overhead())
                 throw CLI::ValidationError("--noise", "'seabed' needs a side-scan mode, such as --mode slant_range");

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,7 +53,9 @@ struct options {
     std::string match = "masked";
     std::vector<std::string> noise{"speckle:0.1"};
     std::string colormap = "gray";
-    std::vector<std::string> formats;  ///< in addition to 8-bit PNG, in the order of `format_names`
+    std::string display;                        ///< amplitude, power, decibels, or empty (decided by the recipe)
+    std::optional<range> white, display_range;  ///< intensity shown white, decibels; null: the recipe's
+    std::vector<std::string> formats;           ///< in addition to 8-bit PNG, in the order of `format_names`
     bool demo = false;
 
     bool is_overhead() const { return mode == "overhead"; }

@@ -27,7 +27,9 @@ struct plan {
     double relief, wavelength, direction;  ///< of the seabed: in [0, 1], metres, radians
     double distance, beam;                 ///< of the target from the track, in altitudes; beamwidth, radians
     bool port;                             ///< the target is to port of the track
-    double noise, white;                   ///< noise floor and white level of a side-scan picture
+    double noise;                          ///< noise floor of a side-scan picture
+    std::string display;                   ///< of a side-scan picture: amplitude, power or decibels
+    double white, display_range;           ///< intensity shown white, decibels from black to white
 
     nlohmann::ordered_json values;  ///< all values, by column
     std::map<std::string, std::vector<std::string>> choices;
@@ -127,8 +129,10 @@ inline plan plan_image(const options& o, std::uint64_t index, const view_of_targ
     p.distance = from("distance", o.distance);
     p.beam = radians(from("beam_deg", o.beam));
     p.noise = s.uniform("noise_floor", 0.003, 0.03);
-    p.white = s.uniform("white", 4, 12);
+    p.white = from("white", o.white.value_or(range{4, 12}));
     detail::sample_reference(s, p, shared, !o.demo || index >= scenes);
+    p.display = s.choice("display", {{"amplitude"}, {"power", 0}, {"decibels", 0}}, o.display);
+    p.display_range = from("display_range_db", o.display_range.value_or(range{40, 40}));
 
     // Drop values without meaning in this image.
     const auto drop_unless = [&](bool has_meaning, std::initializer_list<const char*> names) {
@@ -136,7 +140,8 @@ inline plan plan_image(const options& o, std::uint64_t index, const view_of_targ
             for (const char* const name : names) s.drop(name);
     };
     const bool rippled = p.seabed == "ripples" || p.seabed == "mixed";
-    drop_unless(sonar, {"side", "distance", "beam_deg", "noise_floor", "white"});
+    drop_unless(sonar, {"side", "distance", "beam_deg", "noise_floor", "white", "display"});
+    drop_unless(sonar && p.display == "decibels", {"display_range_db"});
     drop_unless(!sonar, {"light_deg"});
     drop_unless(rippled || p.seabed == "rock", {"relief"});
     drop_unless(rippled, {"ripple_wavelength_m", "ripple_direction_deg"});

@@ -63,6 +63,7 @@ constexpr limits limits_of(std::string_view column) {
         {"_rad", {-1e3, 1e3}},
         // Levels and strengths.
         {"growth_db", {0, 30}},
+        {"display_range_db", {1, 400}},
         {"_db", {-100, 100}},
         {"reflectivity", {0, 1e6}},
         {"aspect", {1e-2, 1e2}},

@@ -174,7 +174,7 @@ inline void sample_bottom(sampler& s, sonar_plan& p, double pixel, const view_of
     p.clutter_seed = s.word("clutter_seed");
 }
 
-inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
+inline void sample_look(const options& o, sampler& s, sonar_plan& p, double pixel, double slant) {
     p.facets = s.uniform("facets", 0, 6);
     p.facet_slope = s.uniform("facet_slope", 0.08, 0.3);
     p.volume_scatter = s.logarithmic("volume_scatter", 0.05, 0.8);
@@ -216,11 +216,15 @@ inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
     p.texture = s.uniform_or_0("texture", 0.75, 4, 15);
     p.noise_seed = s.word("noise_seed");
 
-    p.display = s.choice("display", {{"amplitude", 0.5}, {"decibels", 0.25}, {"power", 0.05}, {"automatic", 0.2}});
+    p.display =
+        s.choice("display", {{"amplitude", 0.5}, {"decibels", 0.25}, {"power", 0.05}, {"automatic", 0.2}}, o.display);
     // Operators set the gain so that the bottom is mid-gray; white lies 6 to 18 dB above it.
-    p.white = s.logarithmic("white", 2, 32);
+    const range white = o.white.value_or(range{2, 32});
+    p.white = s.logarithmic("white", white.low, white.high);
     p.exponent = s.uniform("exponent", 0.33, 0.62);
-    p.dynamic_range = s.uniform("display_range_factor", 0.5, 1.1) * static_cast<double>(p.sonar.dynamic_range);
+    const double factor = s.uniform("display_range_factor", 0.5, 1.1);
+    p.dynamic_range = factor * static_cast<double>(p.sonar.dynamic_range);
+    if (const auto& r = o.display_range) p.dynamic_range = r->low + (r->high - r->low) * (factor - 0.5) / 0.6;
     p.dynamic_range = s.derived("display_range_db", p.dynamic_range);
     p.black_share = s.uniform("black_share", 0, 0.02);
     p.white_share = s.uniform("white_share", 0, 0.03);
@@ -315,7 +319,7 @@ inline sonar_plan sample_image(const options& o, sampler& s, const view_of_targe
     p.place_y = s.uniform("place_y_m", -500, 500);
     p.ground_range = s.chance("ground_range", 0.3);
     detail::sample_bottom(s, p, pixel, view);
-    detail::sample_look(s, p, pixel, slant);
+    detail::sample_look(o, s, p, pixel, slant);
     return p;
 }
 

@@ -579,6 +579,38 @@ class Generator(unittest.TestCase):
             sum_, name = line.split()
             self.assertEqual(hashlib.sha256((out / name).read_bytes()).hexdigest(), sum_)
 
+    def test_the_display_can_be_that_of_a_given_sonar(self):
+        def pictures(name):
+            return {path: sum_ for path, sum_ in digest(self.folder / name).items() if path.startswith("images/")}
+        options = "--mode", "slant_range", "--pixels", 48, "--count", 4, "--noise", "none", "--format", "npy", "--white", 8
+        values = {}
+        for display in "amplitude", "power", "decibels":
+            run("--out", self.folder / display, *options, "--display", display)
+            rows = self.read_manifest(self.folder / display)
+            values[display] = [v for row in rows for v in read_npy((self.folder / display / row["npy"]).read_bytes())]
+            self.assertEqual({row["display"] for row in rows}, {display})
+            self.assertEqual({row["white"] for row in rows}, {"8.0"})
+            self.assertEqual({row["display_range_db"] for row in rows}, {"40.0" if display == "decibels" else ""})
+        self.assertGreater(len(set(values["power"])), 1000)
+        for power, amplitude, decibels in zip(values["power"], values["amplitude"], values["decibels"]):
+            self.assertAlmostEqual(amplitude, math.sqrt(power), delta=1e-6)
+            if power < 1:
+                self.assertAlmostEqual(decibels, max(0, 1 + math.log10(max(power, 1e-9)) / 4), delta=1e-5)
+        run("--out", self.folder / "plain", *options)
+        self.assertEqual(pictures("plain"), pictures("amplitude"))
+        run("--out", self.folder / "again", "--plan", self.folder / "decibels/manifest.csv")
+        self.assertEqual(pictures("again"), pictures("decibels"))
+
+        run("--recipe", "sonar", "--out", self.folder / "sonar", "--pixels", 32, "--count", 6, "--visible-share", 0,
+            "--display", "decibels", "--display-range", "30:35", "--white", 4)
+        for row in self.read_manifest(self.folder / "sonar"):
+            self.assertEqual((row["display"], float(row["white"])), ("decibels", 4))
+            self.assertTrue(30 <= float(row["display_range_db"]) <= 35)
+        side_scan = "--out", "x", "--mode", "slant_range"
+        self.assertIn("--display: needs a side-scan mode", refusal("--out", "x", "--display", "power"))
+        self.assertIn("needs --display decibels", refusal(*side_scan, "--display-range", 30))
+        self.assertIn("--white: '0' must lie within", refusal(*side_scan, "--white", 0))
+
     def test_a_folder_whose_first_run_was_killed_early_is_accepted(self):
         run("--out", self.folder / "whole", *SMALL)
         for leftover in "config.json.tmp0", ".partial/all/somewhere-1-0":
