@@ -14073,20 +14073,10 @@ class light_rays {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/shadow/detail/horizon_bounds.hpp -------------------------------------------------
-// Bounds on the horizon of a regular grid under parallel light: how high the surface towards the light rises over each
-// cell.
+// ------------ insonify/shadow/detail/lit_grid.hpp -------------------------------------------------------
+// A regular grid turned so that parallel light travels along its columns, and its heights along the light's rays.
 //
-// In grid steps, all points of a ray have the same u = X + drop z, the X at which the ray meets z = 0. A point is in
-// shadow if the surface has a larger u somewhere on its ray towards the light. Strips one row wide run along the light,
-// so that no ray leaves its strip. Along each strip the kernel carries two bounds: a lower bound of the largest u on
-// every ray (the minimum over the vertices around the strip at each column), and an upper bound (the maximum). Points
-// below the lower bound are dark, points above the upper bound lit; the few in between are left to an exact test.
-//
-// Where all triangles around a strip face the light, u increases along each ray, so that they cannot shade a later
-// point of the same slope. Such columns are left out of the upper bound, or points on lit slopes would be undecided.
-//
-// Based on: Nelson L. Max. Horizon Mapping: Shadows for Bump-Mapped Surfaces. 1988
+// In grid steps, all points of a ray have the same u = X + drop z, the X at which the ray meets z = 0.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -14216,10 +14206,37 @@ struct grid_heights {
     float* column(int x) { return u.data() + static_cast<std::ptrdiff_t>(x) * pitch + around; }
 };
 
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/detail/horizon_bounds.hpp -------------------------------------------------
+// Bounds on the horizon of a regular grid under parallel light: how high the surface towards the light rises over each
+// cell.
+//
+// A point is in shadow if the surface has a larger u (lit_grid.hpp) somewhere on its ray towards the light. Strips one
+// row wide run along the light, so that no ray leaves its strip. Along each strip the kernel carries two bounds: a
+// lower bound of the largest u on every ray (the minimum over the vertices around the strip at each column), and an
+// upper bound (the maximum). Points below the lower bound are dark, points above the upper bound lit; the few in
+// between are left to an exact test.
+//
+// Where all triangles around a strip face the light, u increases along each ray, so that they cannot shade a later
+// point of the same slope. Such columns are left out of the upper bound, or points on lit slopes would be undecided.
+//
+// Based on: Nelson L. Max. Horizon Mapping: Shadows for Bump-Mapped Surfaces. 1988
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail::inline INSONIFY_FLAGS {
+
 /// Bounds of the largest u that rays of a strip meet before a column.
 struct horizon_bound {
-    float met;       ///< at least
-    float may_meet;  ///< at most
+    float dark_below;  ///< every ray of the strip meets a u of at least this
+    float lit_above;   ///< no ray of the strip meets a u above this
 };
 
 /// Computes the bounds of some strips.
@@ -14229,7 +14246,7 @@ struct horizon_kernel {
     int first_strip;       ///< strips count from this
     int from, to, strips;  ///< these, of so many
     float margin;          ///< of u
-    float* bounds;         ///< by column: what each strip's rays met, then what they may meet
+    float* bounds;         ///< by column: the lower bound of each strip, then the upper ones
 
     template <int N>
     INSONIFY_INLINE void run() const {
@@ -14243,7 +14260,7 @@ struct horizon_kernel {
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
         const auto slope = static_cast<float>(grid.slope);
-        floats met = floats{} + grid_heights::nothing, may_meet = met;
+        floats dark_below = floats{} + grid_heights::nothing, lit_above = dark_below;
         ints was_rising = ints{} - 1;
         for (int x = 0; x < grid.columns; ++x) {
             // The strip's rows where it crosses the column, and up to the next one: `row` to `row + 3` surround it.
@@ -14260,9 +14277,9 @@ struct horizon_kernel {
                 highest = here[i + 1] > highest ? here[i + 1] : highest;
             });
             // Every ray of the strip meets the column between rows `row` and `row + 2`.
-            met = lowest > met ? lowest : met;
+            dark_below = lowest > dark_below ? lowest : dark_below;
             // The columns before count unless u increases all along them.
-            may_meet = was_rising ? may_meet : floats(highest > may_meet ? highest : may_meet);
+            lit_above = was_rising ? lit_above : floats(highest > lit_above ? highest : lit_above);
             ints rises = ints{} - 1;
             unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
                 const floats &a = here[i], &b = ahead[i], &c = here[i + 1],
@@ -14284,10 +14301,10 @@ struct horizon_kernel {
             // Where u does not increase, these cells may shade points in them and after.
             floats next = highest;
             unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { next = ahead[i] > next ? ahead[i] : next; });
-            may_meet = rises ? may_meet : floats(next > may_meet ? next : may_meet);
-            floats stored = rises ? may_meet : floats{} + std::numeric_limits<float>::infinity();
+            lit_above = rises ? lit_above : floats(next > lit_above ? next : lit_above);
+            floats stored = rises ? lit_above : floats{} + std::numeric_limits<float>::infinity();
             float* const of_column = bounds + static_cast<std::ptrdiff_t>(x) * 2 * strips + k;
-            store(of_column, met);
+            store(of_column, dark_below);
             store(of_column + strips, stored);
             was_rising = rises;
         }
@@ -14345,8 +14362,8 @@ class horizon_bounds {
         if (!has_strip(strip)) return known::nothing;
         const horizon_bound b = bound(column, strip);
         const double u = x + grid_.drop * p.z;
-        if (u < static_cast<double>(b.met) - margin_) return known::dark;
-        return u > static_cast<double>(b.may_meet) + margin_ ? known::lit : known::nothing;
+        if (u < static_cast<double>(b.dark_below) - margin_) return known::dark;
+        return u > static_cast<double>(b.lit_above) + margin_ ? known::lit : known::nothing;
     }
 
     const lit_grid& grid() const { return grid_; }
@@ -14358,10 +14375,12 @@ class horizon_bounds {
     bool has_strip(int strip) const { return strip >= 0 && strip < strips_; }
     /// Strip number `strip` of a column holds the points with floor(Y - slope X) = strip + first_strip().
     int first_strip() const { return first_strip_; }
-    horizon_bound bound(int column, int strip) const { return {met(column)[strip], may_meet(column)[strip]}; }
+    horizon_bound bound(int column, int strip) const { return {dark_below(column)[strip], lit_above(column)[strip]}; }
     /// Bounds of a column, by strip.
-    const float* met(int column) const { return bounds_.data() + static_cast<std::ptrdiff_t>(column) * 2 * strips_; }
-    const float* may_meet(int column) const { return met(column) + strips_; }
+    const float* dark_below(int column) const {
+        return bounds_.data() + static_cast<std::ptrdiff_t>(column) * 2 * strips_;
+    }
+    const float* lit_above(int column) const { return dark_below(column) + strips_; }
 
   private:
     lit_grid grid_;
@@ -14624,18 +14643,18 @@ class horizon_triangles {
             // The strips that the cells lie in.
             constexpr double beside = 0x1p-8;
             const double from = y - horizon.first_strip() - grid.slope * x;
-            floats met = floats{} + std::numeric_limits<float>::infinity(), may_meet = 0.0f - met;
+            floats dark_below = floats{} + std::numeric_limits<float>::infinity(), lit_above = 0.0f - dark_below;
             const int last = static_cast<int>(from + 1 + beside);
             for (int strip = static_cast<int>(from - grid.slope - beside); strip <= last; ++strip) {
                 floats least, most;
-                load(least, horizon.met(x) + strip);
-                load(most, horizon.may_meet(x) + strip);
-                met = least < met ? least : met;
-                may_meet = most > may_meet ? most : may_meet;
+                load(least, horizon.dark_below(x) + strip);
+                load(most, horizon.lit_above(x) + strip);
+                dark_below = least < dark_below ? least : dark_below;
+                lit_above = most > lit_above ? most : lit_above;
             }
             const auto margin = static_cast<float>(horizon.margin());
-            met = met - margin;
-            may_meet = may_meet + margin;
+            dark_below = dark_below - margin;
+            lit_above = lit_above + margin;
             floats row;
             iota<float, N>(row);
             const auto dx = static_cast<float>(whole.eye_.x - x);
@@ -14643,7 +14662,7 @@ class horizon_triangles {
             const floats error = 4 * margin * ((2 + numeric::abs(dx)) + (dy < 0.0f ? 0.0f - dy : dy));
             const floats eye = static_cast<float>(whole.eye_u_) - error;
             const triangle_lanes<N> known_of{
-                met, may_meet, eye, dy, dx, static_cast<float>(grid.slope), static_cast<float>(whole.rise_)};
+                dark_below, lit_above, eye, dy, dx, static_cast<float>(grid.slope), static_cast<float>(whole.rise_)};
             lanes<std::int32_t, N> lower, upper;
             if (grid.is_rising) {
                 known_of(lower, a, b, d, b - a, d - b, a);
@@ -14667,9 +14686,9 @@ class horizon_triangles {
     struct triangle_lanes {
         using floats = insonify::detail::lanes<float, N>;
         using ints = insonify::detail::lanes<std::int32_t, N>;
-        floats met, may_meet;  ///< bounds: dark below the first, lit above the second
-        floats eye;            ///< what the plane has to pass below at the camera
-        floats dy;             ///< from the cell to the camera
+        floats dark_below, lit_above;  ///< bounds: dark below the first, lit above the second
+        floats eye;                    ///< what the plane has to pass below at the camera
+        floats dy;                     ///< from the cell to the camera
         float dx, slope, enough;
 
         /// @param along_x, along_y  how u rises in it
@@ -14682,8 +14701,8 @@ class horizon_triangles {
             const floats rise = along_x + slope * along_y;
             const ints is_above = ints(base + along_x * dx + along_y * dy < eye);
             const ints is_facing = ints(rise > enough), is_averted = ints(rise < 0.0f - enough);
-            const ints is_dark = (is_above & is_averted) | ((is_above | is_facing) & ints(highest < met));
-            const ints is_lit = is_above & is_facing & ints(lowest > may_meet);
+            const ints is_dark = (is_above & is_averted) | ((is_above | is_facing) & ints(highest < dark_below));
+            const ints is_lit = is_above & is_facing & ints(lowest > lit_above);
             answer = is_lit ? ints{} + static_cast<std::int32_t>(known::lit)
                             : ints{} + static_cast<std::int32_t>(known::nothing);
             answer = is_dark ? ints{} + static_cast<std::int32_t>(known::dark) : answer;
@@ -14817,7 +14836,7 @@ class horizon_walk {
     /// u on the edges that the ray crosses in one column of cells.
     struct crossing {
         double lowest = -nothing, highest = nothing;
-        double surely = nothing;  ///< the largest u that certainly lies before the point
+        double certain = nothing;  ///< the largest u that certainly lies before the point
     };
 
     double row_at(double column) const { return w_ + grid_.slope * column; }
@@ -14872,11 +14891,11 @@ class horizon_walk {
             const int first_row = held_row(low - beside_), last_row = held_row(high + beside_);
             if (highest(column, first_row, last_row) < doubt) continue;
             const double limit = is_first && is_above ? x_ - column : 2;
-            const crossing met = cross(column, limit);
-            if (met.highest < doubt) continue;
+            const crossing crossed = cross(column, limit);
+            if (crossed.highest < doubt) continue;
             const bool is_inside = low >= beside_ && high <= grid_.rows - 1 - beside_;
-            if (is_above && is_inside && met.surely > u_ + horizon_.margin()) return true;
-            if (!is_above && met.lowest > u_ + horizon_.margin()) continue;
+            if (is_above && is_inside && crossed.certain > u_ + horizon_.margin()) return true;
+            if (!is_above && crossed.lowest > u_ + horizon_.margin()) continue;
             for (int row = first_row; row <= last_row; ++row) {
                 const auto triangle = static_cast<std::uint32_t>(grid_.first_triangle(column, row));
                 if (decide(triangle) || decide(triangle + 1)) return true;
@@ -14890,8 +14909,8 @@ class horizon_walk {
         const int strip = static_cast<int>(w_ - horizon_.first_strip());
         if (!horizon_.has_strip(strip)) return known::nothing;
         const horizon_bound b = horizon_.bound(column, strip);
-        if (u_ < static_cast<double>(b.met) - horizon_.margin()) return known::dark;
-        return u_ > static_cast<double>(b.may_meet) + horizon_.margin() ? known::lit : known::nothing;
+        if (u_ < static_cast<double>(b.dark_below) - horizon_.margin()) return known::dark;
+        return u_ > static_cast<double>(b.lit_above) + horizon_.margin() ? known::lit : known::nothing;
     }
 
     /// @param limit  position of the point, in columns from this one
@@ -14903,19 +14922,19 @@ class horizon_walk {
                                                                                row;
         const auto a = static_cast<double>(here[0]), b = static_cast<double>(ahead[0]),
                    c = static_cast<double>(here[1]), d = static_cast<double>(ahead[1]);
-        crossing met;
+        crossing found;
         // An edge is crossed a share s of the column from its beginning, a share t along it.
         const auto add = [&](double s, double first, double last, double t) {
             if (s > limit + beside_) return;
             const double u = first + t * (last - first);
-            met.lowest = (std::min)(met.lowest, u);
-            met.highest = (std::max)(met.highest, u);
-            if (s <= limit - beside_) met.surely = (std::max)(met.surely, u);
+            found.lowest = (std::min)(found.lowest, u);
+            found.highest = (std::max)(found.highest, u);
+            if (s <= limit - beside_) found.certain = (std::max)(found.certain, u);
         };
         if (high <= 0 || low >= grid_.rows - 1) {  // along the border
             add(0, a, c, high <= 0 ? 0 : 1);
             add(1, b, d, high <= 0 ? 0 : 1);
-            return met;
+            return found;
         }
         const double start = low - row, end = start + slope, up = (1 - start) / slope;
         const bool stays = end <= 1;
@@ -14932,11 +14951,11 @@ class horizon_walk {
         } else {
             add((1 - start) / (1 + slope), c, b, (1 - start) / (1 + slope));
         }
-        if (stays || row + 2 >= grid_.rows) return met;
+        if (stays || row + 2 >= grid_.rows) return found;
         const auto e = static_cast<double>(here[2]), f = static_cast<double>(ahead[2]);
         add(1, d, f, end - 1);
         if (!grid_.is_rising) add((2 - start) / (1 + slope), e, d, (2 - start) / (1 + slope));
-        return met;
+        return found;
     }
 
     const horizon_bounds& horizon_;
@@ -15598,7 +15617,7 @@ struct occlusion_kernel {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/shadow/detail/tiled_plane.hpp ----------------------------------------------------
-// A plane that rays of the light cross, cut into tiles, and which casters touch each tile.
+// The planes that rays of the light cross, cut into tiles, and which casters touch each tile.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -15618,6 +15637,7 @@ std::pair<glm::dvec2, glm::dvec2> extent_on(const light_plane& plane, const Corn
     return {lower, upper};
 }
 
+/// One plane.
 struct tiled_plane {
     static constexpr std::uint32_t no_caster = invalid_id, several_casters = invalid_id - 1;
 
@@ -15651,6 +15671,156 @@ struct tiled_plane {
 
   private:
     static int clamped(double at, int count) { return static_cast<int>((std::min)((std::max)(0.0, at), count - 1.0)); }
+};
+
+/// All planes of one light, with their tiles counted together: one across parallel light, or the sides of a cube around
+/// a near one, of which those that no point lies over have no casters and no tiles.
+class tiled_planes {
+  public:
+    explicit tiled_planes(const any_light& light) {
+        if (const auto* point = std::get_if<point_light>(&light)) near_light_ = *point;
+    }
+    void add(tiled_plane plane) {
+        starts_.push_back(tile_count() + (plane.casters.empty() ? 0 : plane.tiles.count()));
+        planes_.push_back(std::move(plane));
+    }
+
+    bool empty() const { return planes_.empty(); }
+    bool are_near() const { return near_light_.has_value(); }
+    const tiled_plane& front() const { return planes_.front(); }
+    std::size_t tile_count() const { return starts_.back(); }
+
+    /// The plane of a tile, and the number of the tile on that plane.
+    std::pair<const tiled_plane*, std::size_t> plane_of(std::size_t tile) const {
+        const auto after = std::upper_bound(starts_.begin(), starts_.end(), tile);
+        return {&planes_[static_cast<std::size_t>(after - starts_.begin() - 1)], tile - *(after - 1)};
+    }
+
+    /// Where a point lies.
+    struct place {
+        const tiled_plane* plane;  ///< null where no caster blocks its light
+        glm::dvec3 seen;           ///< on the plane, after the division
+        std::size_t tile;          ///< among all
+        std::uint32_t occupant;    ///< of the tile
+    };
+    place of(const glm::dvec3& p) const {
+        const auto side = static_cast<std::size_t>(near_light_ ? light_plane::side_of(*near_light_, p) : 0);
+        const tiled_plane& on = planes_[side];
+        if (on.casters.empty()) return {};
+        const glm::dvec3 before = on.plane(p), seen = near_light_ ? light_plane::seen(before) : before;
+        const std::size_t tile = on.tile_of(seen);
+        return {&on, seen, starts_[side] + tile, on.occupant[tile]};
+    }
+
+  private:
+    std::optional<point_light> near_light_;
+    std::vector<tiled_plane> planes_;
+    std::vector<std::size_t> starts_{0};  ///< first tile of each plane, then their number
+};
+
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/detail/points_by_tile.hpp -------------------------------------------------
+// Points of many batches, sorted by the tile of the light's planes that they lie over.
+//
+// Each run of batches is sorted by itself, so that runs are sorted in parallel; a tile collects its points from all
+// runs.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail::inline INSONIFY_FLAGS {
+
+class points_by_tile {
+  public:
+    /// Sorts points, and sets the results of all to lit by `into`: those without a caster over their tile stay so.
+    /// @param planes  not empty; outlives this
+    template <executor E>
+    points_by_tile(const tiled_planes& planes, std::span<const points> at, std::span<const results> into, E& ex)
+        : planes_(planes) {
+        const std::size_t grain = (std::max)(std::size_t{8}, (at.size() + 127) / 128);
+        runs_.resize((at.size() + grain - 1) / grain);
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            if (i % grain == 0) runs_[i / grain].first = count;
+            count += at[i].size();
+        }
+        const auto memory = insonify::detail::memory_of(ex);
+        sorted_ = receivers_of(count, memory);
+        bulk_ranges(ex, at.size(), grain, [&](std::size_t first, std::size_t last) {
+            sort(at, into, first, last, runs_[first / grain], memory);
+        });
+    }
+
+    /// Replaces `own` by the points of a tile.
+    void collect(std::size_t tile, insonify::detail::uninitialized_vector<receiver>& own) const {
+        std::size_t size = 0;
+        for (const run& r : runs_) size += r.of(sorted_, tile).size();
+        own.resize(size);
+        auto to = own.begin();
+        for (const run& r : runs_) {
+            const auto some = r.of(sorted_, tile);
+            to = std::copy(some.begin(), some.end(), to);
+        }
+    }
+
+  private:
+    using receivers_of = insonify::detail::uninitialized_vector<receiver>;
+    /// A run of batches.
+    struct run {
+        std::size_t first = 0;              ///< of its points among all
+        std::vector<std::uint32_t> starts;  ///< of tiles, from there; empty if no tile has a caster
+
+        std::span<const receiver> of(const receivers_of& all, std::size_t tile) const {
+            if (starts.empty()) return {};
+            return std::span(all).subspan(first + starts[tile], starts[tile + 1] - starts[tile]);
+        }
+    };
+
+    void sort(std::span<const points> at, std::span<const results> into, std::size_t first, std::size_t last, run& out,
+              const insonify::detail::shared_pool& memory) {
+        std::size_t total = 0, count = 0;
+        for (std::size_t batch = first; batch < last; ++batch) {
+            std::fill(into[batch].lit.begin(), into[batch].lit.end(), 1.0f);
+            std::fill(into[batch].caster.begin(), into[batch].caster.end(), invalid_id);
+            total += at[batch].size();
+        }
+        const std::size_t tiles = planes_.tile_count();
+        if (tiles == 0) return;
+        receivers_of found(total, memory);
+        insonify::detail::uninitialized_vector<std::uint32_t> keys(total, memory);
+        out.starts.assign(tiles + 1, 0);
+        for (std::size_t batch = first; batch < last; ++batch) {
+            const points& some = at[batch];
+            for (std::size_t i = 0; i < some.size(); ++i) {
+                const tiled_planes::place over = planes_.of(some[i]);
+                if (over.plane == nullptr || over.occupant == tiled_plane::no_caster) continue;
+                if (over.occupant != tiled_plane::several_casters && over.occupant >= some.casters) continue;
+                const glm::dvec2 from = glm::dvec2(over.seen) - over.plane->tiles.lower;
+                found[count] = {static_cast<float>(from.x),
+                                static_cast<float>(from.y),
+                                static_cast<float>(over.seen.z),
+                                {batch, i},
+                                some.mesh[i],
+                                some.triangle[i]};
+                keys[count] = static_cast<std::uint32_t>(over.tile);
+                ++out.starts[keys[count] + 1];
+                ++count;
+            }
+        }
+        for (std::size_t tile = 0; tile < tiles; ++tile) out.starts[tile + 1] += out.starts[tile];
+        std::vector<std::uint32_t> next(out.starts.begin(), out.starts.end() - 1);
+        for (std::size_t i = 0; i < count; ++i) sorted_[out.first + next[keys[i]]++] = found[i];
+    }
+
+    const tiled_planes& planes_;
+    std::vector<run> runs_;
+    receivers_of sorted_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
@@ -15688,8 +15858,8 @@ class exact_occlusion {
         : casters_(casters.begin(), casters.end()),
           level_(where.level),
           rays_(light, reach_of(where.box)),
+          planes_(light),
           grids_(casters.size()) {
-        if (const auto* point = std::get_if<point_light>(&light)) near_light_ = *point;
         std::size_t triangles = 0;
         for (const caster& c : casters_) triangles += c.mesh.triangles.size();
         if (triangles == 0 || where.box.empty()) return;
@@ -15705,8 +15875,8 @@ class exact_occlusion {
     void screen(const points& at, const results& into) const {
         std::fill(into.caster.begin(), into.caster.end(), invalid_id);
         if (planes_.empty()) return std::fill(into.lit.begin(), into.lit.end(), 1.0f);
-        if (near_light_) return std::fill(into.lit.begin(), into.lit.end(), unknown);
-        const plane_state& state = planes_.front();
+        if (planes_.are_near()) return std::fill(into.lit.begin(), into.lit.end(), unknown);
+        const detail::tiled_plane& state = planes_.front();
         for (std::size_t i = 0; i < at.size(); ++i) {
             const std::uint32_t occupant = state.occupant[state.tile_of(state.plane(at[i]))];
             into.lit[i] = unknown;
@@ -15732,7 +15902,7 @@ class exact_occlusion {
         insonify::detail::uninitialized_vector<known> answers(c.mesh.triangles.size(), insonify::detail::memory_of(ex));
         // Triangles that other casters may shade are left to the test of points.
         std::vector<std::pair<glm::dvec2, glm::dvec2>> shared;
-        const plane_state& plane = planes_.front();
+        const detail::tiled_plane& plane = planes_.front();
         const detail::ray_feet feet(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
             if (plane.occupant[tile] == caster || plane.occupant[tile] == no_caster) continue;
@@ -15767,32 +15937,13 @@ class exact_occlusion {
     /// The same for many batches of at most `max_batch` points each.
     template <executor E>
     void test(std::span<const points> at, std::span<const results> into, E& ex) const {
-        // Each run of batches sorts its points by tile; then each tile collects its points from all runs.
-        const std::size_t grain = (std::max)(std::size_t{8}, (at.size() + 127) / 128);
-        std::vector<sorted_points> runs((at.size() + grain - 1) / grain);
-        std::size_t count = 0;
-        for (std::size_t i = 0; i < at.size(); ++i) {
-            if (i % grain == 0) runs[i / grain].first = count;
-            count += at[i].size();
-        }
-        receivers_of all(count, insonify::detail::memory_of(ex));
-        bulk_ranges(ex, at.size(), grain, [&](std::size_t first, std::size_t last) {
-            sort(at, into, first, last, all, runs[first / grain], insonify::detail::memory_of(ex));
-        });
-        bulk_ranges(ex, tile_count(), 4, [&](std::size_t first, std::size_t last) {
+        const detail::points_by_tile sorted(planes_, at, into, ex);
+        bulk_ranges(ex, planes_.tile_count(), 4, [&](std::size_t first, std::size_t last) {
             detail::receiver_cells cells;
-            receivers_of own;
+            insonify::detail::uninitialized_vector<detail::receiver> own;
             for (std::size_t tile = first; tile < last; ++tile) {
-                std::size_t size = 0;
-                for (const sorted_points& run : runs) size += run.in(all, tile).size();
-                if (size == 0) continue;
-                own.resize(size);
-                auto to = own.begin();
-                for (const sorted_points& run : runs) {
-                    const auto some = run.in(all, tile);
-                    to = std::copy(some.begin(), some.end(), to);
-                }
-                test_tile(tile, own, cells, at, into);
+                sorted.collect(tile, own);
+                if (!own.empty()) test_tile(tile, own, cells, at, into);
             }
         });
     }
@@ -15800,19 +15951,6 @@ class exact_occlusion {
   private:
     static constexpr std::uint32_t no_caster = detail::tiled_plane::no_caster,
                                    several_casters = detail::tiled_plane::several_casters;
-
-    using plane_state = detail::tiled_plane;
-    using receivers_of = insonify::detail::uninitialized_vector<detail::receiver>;
-    /// Points of a run of batches by tile.
-    struct sorted_points {
-        std::size_t first = 0;              ///< among all
-        std::vector<std::uint32_t> starts;  ///< of tiles, from there
-
-        std::span<const detail::receiver> in(const receivers_of& all, std::size_t tile) const {
-            if (starts.empty()) return {};
-            return std::span(all).subspan(first + starts[tile], starts[tile + 1] - starts[tile]);
-        }
-    };
 
     /// Upper bound of the absolute coordinates of points. Casters may reach farther.
     static double reach_of(const bounding_box& bounds) {
@@ -15853,7 +15991,7 @@ class exact_occlusion {
         for (int i = 0; i < 6; ++i) {
             const detail::light_plane plane(light, i);
             if (!detail::is_seen(plane, bounds)) {
-                planes_.emplace_back();
+                planes_.add({});
                 continue;
             }
             const auto [lower, upper] = detail::seen_part(plane, bounds);
@@ -15866,7 +16004,7 @@ class exact_occlusion {
         const double margin = error + 0x1p-20 * (std::max)(tiles.size.x, tiles.size.y) + 1e-30;
         tiles.lower -= margin;
         tiles.size += 2 * margin;
-        plane_state state{plane, tiles, static_cast<float>(error), {}, 1.0 / tiles.tile(), {}};
+        detail::tiled_plane state{plane, tiles, static_cast<float>(error), {}, 1.0 / tiles.tile(), {}};
         state.occupant.assign(tiles.count(), no_caster);
         for (std::size_t i = 0; i < casters_.size(); ++i) {
             const caster& c = casters_[i];
@@ -15883,75 +16021,12 @@ class exact_occlusion {
             for (std::size_t tile = 0; tile < tiles.count(); ++tile)
                 if (!built.bin(tile).empty()) state.occupy(tile, i);
         }
-        planes_.push_back(std::move(state));
+        planes_.add(std::move(state));
     }
 
-    std::size_t tile_count() const {
-        std::size_t count = 0;
-        for (const plane_state& p : planes_) count += p.casters.empty() ? 0 : p.tiles.count();
-        return count;
-    }
-    /// The plane of a tile, and the number of the tile on that plane.
-    std::pair<const plane_state*, std::size_t> plane_of(std::size_t tile) const {
-        for (const plane_state& p : planes_) {
-            if (p.casters.empty()) continue;
-            if (tile < p.tiles.count()) return {&p, tile};
-            tile -= p.tiles.count();
-        }
-        return {nullptr, 0};
-    }
-
-    /// Sorts the points of some batches by tile into `all`. Points without a caster on their tile are lit.
-    void sort(std::span<const points> at, std::span<const results> into, std::size_t first, std::size_t last,
-              receivers_of& all, sorted_points& out, const insonify::detail::shared_pool& memory) const {
-        std::array<std::size_t, 6> plane_start{};
-        std::size_t tiles = 0;
-        for (std::size_t i = 0; i < planes_.size(); ++i) {
-            plane_start[i] = tiles;
-            tiles += planes_[i].casters.empty() ? 0 : planes_[i].tiles.count();
-        }
-        std::size_t total = 0, count = 0;
-        for (std::size_t part = first; part < last; ++part) {
-            std::fill(into[part].lit.begin(), into[part].lit.end(), 1.0f);
-            std::fill(into[part].caster.begin(), into[part].caster.end(), invalid_id);
-            total += at[part].size();
-        }
-        if (tiles == 0) return;
-        receivers_of found(total, memory);
-        insonify::detail::uninitialized_vector<std::uint32_t> keys(total, memory);
-        out.starts.assign(tiles + 1, 0);
-        for (std::size_t part = first; part < last; ++part) {
-            const points& some = at[part];
-            for (std::size_t i = 0; i < some.size(); ++i) {
-                const glm::dvec3 p = some[i];
-                const auto which =
-                    near_light_ ? static_cast<std::size_t>(detail::light_plane::side_of(*near_light_, p)) : 0;
-                const plane_state& state = planes_[which];
-                if (state.casters.empty()) continue;
-                glm::dvec3 seen = state.plane(p);
-                if (near_light_) seen = detail::light_plane::seen(seen);
-                const glm::dvec2 from = glm::dvec2(seen) - state.tiles.lower;
-                const std::size_t tile = state.tile_of(seen);
-                const std::uint32_t occupant = state.occupant[tile];
-                if (occupant == no_caster || (occupant != several_casters && occupant >= some.casters)) continue;
-                found[count] = {static_cast<float>(from.x),
-                                static_cast<float>(from.y),
-                                static_cast<float>(seen.z),
-                                {part, i},
-                                some.mesh[i],
-                                some.triangle[i]};
-                keys[count] = static_cast<std::uint32_t>(plane_start[which] + tile);
-                ++out.starts[keys[count] + 1];
-                ++count;
-            }
-        }
-        for (std::size_t tile = 0; tile < tiles; ++tile) out.starts[tile + 1] += out.starts[tile];
-        std::vector<std::uint32_t> next(out.starts.begin(), out.starts.end() - 1);
-        for (std::size_t i = 0; i < count; ++i) all[out.first + next[keys[i]]++] = found[i];
-    }
     void test_tile(std::size_t tile_number, std::span<const detail::receiver> all, detail::receiver_cells& cells,
                    std::span<const points> at, std::span<const results> into) const {
-        const auto [state, tile] = plane_of(tile_number);
+        const auto [state, tile] = planes_.plane_of(tile_number);
         const glm::dvec2 size = state->tiles.tile();
         const auto columns = static_cast<std::size_t>(state->tiles.columns);
         const glm::dvec2 from(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
@@ -15989,15 +16064,14 @@ class exact_occlusion {
     }
 
     /// Whether a triangle that faces the light is clockwise on the plane.
-    static bool is_turned(const caster& c, const plane_state& state) {
+    static bool is_turned(const caster& c, const detail::tiled_plane& state) {
         return (numeric::determinant(c.placement.linear) < 0) != state.plane.is_mirrored();
     }
 
     std::vector<caster> casters_;
     isa level_;
-    std::optional<point_light> near_light_;
     detail::light_rays rays_;
-    std::vector<plane_state> planes_;                        ///< one, or six of which some are empty
+    detail::tiled_planes planes_;
     std::vector<std::optional<detail::grid_caster>> grids_;  ///< of the casters, under parallel light
 };
 

@@ -12,9 +12,9 @@
 #include <insonify/shadow/detail/blocking.hpp>
 #include <insonify/shadow/detail/grid_caster.hpp>
 #include <insonify/shadow/detail/occlusion_kernel.hpp>
+#include <insonify/shadow/detail/points_by_tile.hpp>
 #include <insonify/shadow/detail/tiled_plane.hpp>
 
-#include <array>
 #include <optional>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -35,8 +35,8 @@ class exact_occlusion {
         : casters_(casters.begin(), casters.end()),
           level_(where.level),
           rays_(light, reach_of(where.box)),
+          planes_(light),
           grids_(casters.size()) {
-        if (const auto* point = std::get_if<point_light>(&light)) near_light_ = *point;
         std::size_t triangles = 0;
         for (const caster& c : casters_) triangles += c.mesh.triangles.size();
         if (triangles == 0 || where.box.empty()) return;
@@ -52,8 +52,8 @@ class exact_occlusion {
     void screen(const points& at, const results& into) const {
         std::fill(into.caster.begin(), into.caster.end(), invalid_id);
         if (planes_.empty()) return std::fill(into.lit.begin(), into.lit.end(), 1.0f);
-        if (near_light_) return std::fill(into.lit.begin(), into.lit.end(), unknown);
-        const plane_state& state = planes_.front();
+        if (planes_.are_near()) return std::fill(into.lit.begin(), into.lit.end(), unknown);
+        const detail::tiled_plane& state = planes_.front();
         for (std::size_t i = 0; i < at.size(); ++i) {
             const std::uint32_t occupant = state.occupant[state.tile_of(state.plane(at[i]))];
             into.lit[i] = unknown;
@@ -79,7 +79,7 @@ class exact_occlusion {
         insonify::detail::uninitialized_vector<known> answers(c.mesh.triangles.size(), insonify::detail::memory_of(ex));
         // Triangles that other casters may shade are left to the test of points.
         std::vector<std::pair<glm::dvec2, glm::dvec2>> shared;
-        const plane_state& plane = planes_.front();
+        const detail::tiled_plane& plane = planes_.front();
         const detail::ray_feet feet(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
             if (plane.occupant[tile] == caster || plane.occupant[tile] == no_caster) continue;
@@ -114,32 +114,13 @@ class exact_occlusion {
     /// The same for many batches of at most `max_batch` points each.
     template <executor E>
     void test(std::span<const points> at, std::span<const results> into, E& ex) const {
-        // Each run of batches sorts its points by tile; then each tile collects its points from all runs.
-        const std::size_t grain = (std::max)(std::size_t{8}, (at.size() + 127) / 128);
-        std::vector<sorted_points> runs((at.size() + grain - 1) / grain);
-        std::size_t count = 0;
-        for (std::size_t i = 0; i < at.size(); ++i) {
-            if (i % grain == 0) runs[i / grain].first = count;
-            count += at[i].size();
-        }
-        receivers_of all(count, insonify::detail::memory_of(ex));
-        bulk_ranges(ex, at.size(), grain, [&](std::size_t first, std::size_t last) {
-            sort(at, into, first, last, all, runs[first / grain], insonify::detail::memory_of(ex));
-        });
-        bulk_ranges(ex, tile_count(), 4, [&](std::size_t first, std::size_t last) {
+        const detail::points_by_tile sorted(planes_, at, into, ex);
+        bulk_ranges(ex, planes_.tile_count(), 4, [&](std::size_t first, std::size_t last) {
             detail::receiver_cells cells;
-            receivers_of own;
+            insonify::detail::uninitialized_vector<detail::receiver> own;
             for (std::size_t tile = first; tile < last; ++tile) {
-                std::size_t size = 0;
-                for (const sorted_points& run : runs) size += run.in(all, tile).size();
-                if (size == 0) continue;
-                own.resize(size);
-                auto to = own.begin();
-                for (const sorted_points& run : runs) {
-                    const auto some = run.in(all, tile);
-                    to = std::copy(some.begin(), some.end(), to);
-                }
-                test_tile(tile, own, cells, at, into);
+                sorted.collect(tile, own);
+                if (!own.empty()) test_tile(tile, own, cells, at, into);
             }
         });
     }
@@ -147,19 +128,6 @@ class exact_occlusion {
   private:
     static constexpr std::uint32_t no_caster = detail::tiled_plane::no_caster,
                                    several_casters = detail::tiled_plane::several_casters;
-
-    using plane_state = detail::tiled_plane;
-    using receivers_of = insonify::detail::uninitialized_vector<detail::receiver>;
-    /// Points of a run of batches by tile.
-    struct sorted_points {
-        std::size_t first = 0;              ///< among all
-        std::vector<std::uint32_t> starts;  ///< of tiles, from there
-
-        std::span<const detail::receiver> in(const receivers_of& all, std::size_t tile) const {
-            if (starts.empty()) return {};
-            return std::span(all).subspan(first + starts[tile], starts[tile + 1] - starts[tile]);
-        }
-    };
 
     /// Upper bound of the absolute coordinates of points. Casters may reach farther.
     static double reach_of(const bounding_box& bounds) {
@@ -200,7 +168,7 @@ class exact_occlusion {
         for (int i = 0; i < 6; ++i) {
             const detail::light_plane plane(light, i);
             if (!detail::is_seen(plane, bounds)) {
-                planes_.emplace_back();
+                planes_.add({});
                 continue;
             }
             const auto [lower, upper] = detail::seen_part(plane, bounds);
@@ -213,7 +181,7 @@ class exact_occlusion {
         const double margin = error + 0x1p-20 * (std::max)(tiles.size.x, tiles.size.y) + 1e-30;
         tiles.lower -= margin;
         tiles.size += 2 * margin;
-        plane_state state{plane, tiles, static_cast<float>(error), {}, 1.0 / tiles.tile(), {}};
+        detail::tiled_plane state{plane, tiles, static_cast<float>(error), {}, 1.0 / tiles.tile(), {}};
         state.occupant.assign(tiles.count(), no_caster);
         for (std::size_t i = 0; i < casters_.size(); ++i) {
             const caster& c = casters_[i];
@@ -230,75 +198,12 @@ class exact_occlusion {
             for (std::size_t tile = 0; tile < tiles.count(); ++tile)
                 if (!built.bin(tile).empty()) state.occupy(tile, i);
         }
-        planes_.push_back(std::move(state));
+        planes_.add(std::move(state));
     }
 
-    std::size_t tile_count() const {
-        std::size_t count = 0;
-        for (const plane_state& p : planes_) count += p.casters.empty() ? 0 : p.tiles.count();
-        return count;
-    }
-    /// The plane of a tile, and the number of the tile on that plane.
-    std::pair<const plane_state*, std::size_t> plane_of(std::size_t tile) const {
-        for (const plane_state& p : planes_) {
-            if (p.casters.empty()) continue;
-            if (tile < p.tiles.count()) return {&p, tile};
-            tile -= p.tiles.count();
-        }
-        return {nullptr, 0};
-    }
-
-    /// Sorts the points of some batches by tile into `all`. Points without a caster on their tile are lit.
-    void sort(std::span<const points> at, std::span<const results> into, std::size_t first, std::size_t last,
-              receivers_of& all, sorted_points& out, const insonify::detail::shared_pool& memory) const {
-        std::array<std::size_t, 6> plane_start{};
-        std::size_t tiles = 0;
-        for (std::size_t i = 0; i < planes_.size(); ++i) {
-            plane_start[i] = tiles;
-            tiles += planes_[i].casters.empty() ? 0 : planes_[i].tiles.count();
-        }
-        std::size_t total = 0, count = 0;
-        for (std::size_t part = first; part < last; ++part) {
-            std::fill(into[part].lit.begin(), into[part].lit.end(), 1.0f);
-            std::fill(into[part].caster.begin(), into[part].caster.end(), invalid_id);
-            total += at[part].size();
-        }
-        if (tiles == 0) return;
-        receivers_of found(total, memory);
-        insonify::detail::uninitialized_vector<std::uint32_t> keys(total, memory);
-        out.starts.assign(tiles + 1, 0);
-        for (std::size_t part = first; part < last; ++part) {
-            const points& some = at[part];
-            for (std::size_t i = 0; i < some.size(); ++i) {
-                const glm::dvec3 p = some[i];
-                const auto which =
-                    near_light_ ? static_cast<std::size_t>(detail::light_plane::side_of(*near_light_, p)) : 0;
-                const plane_state& state = planes_[which];
-                if (state.casters.empty()) continue;
-                glm::dvec3 seen = state.plane(p);
-                if (near_light_) seen = detail::light_plane::seen(seen);
-                const glm::dvec2 from = glm::dvec2(seen) - state.tiles.lower;
-                const std::size_t tile = state.tile_of(seen);
-                const std::uint32_t occupant = state.occupant[tile];
-                if (occupant == no_caster || (occupant != several_casters && occupant >= some.casters)) continue;
-                found[count] = {static_cast<float>(from.x),
-                                static_cast<float>(from.y),
-                                static_cast<float>(seen.z),
-                                {part, i},
-                                some.mesh[i],
-                                some.triangle[i]};
-                keys[count] = static_cast<std::uint32_t>(plane_start[which] + tile);
-                ++out.starts[keys[count] + 1];
-                ++count;
-            }
-        }
-        for (std::size_t tile = 0; tile < tiles; ++tile) out.starts[tile + 1] += out.starts[tile];
-        std::vector<std::uint32_t> next(out.starts.begin(), out.starts.end() - 1);
-        for (std::size_t i = 0; i < count; ++i) all[out.first + next[keys[i]]++] = found[i];
-    }
     void test_tile(std::size_t tile_number, std::span<const detail::receiver> all, detail::receiver_cells& cells,
                    std::span<const points> at, std::span<const results> into) const {
-        const auto [state, tile] = plane_of(tile_number);
+        const auto [state, tile] = planes_.plane_of(tile_number);
         const glm::dvec2 size = state->tiles.tile();
         const auto columns = static_cast<std::size_t>(state->tiles.columns);
         const glm::dvec2 from(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
@@ -336,15 +241,14 @@ class exact_occlusion {
     }
 
     /// Whether a triangle that faces the light is clockwise on the plane.
-    static bool is_turned(const caster& c, const plane_state& state) {
+    static bool is_turned(const caster& c, const detail::tiled_plane& state) {
         return (numeric::determinant(c.placement.linear) < 0) != state.plane.is_mirrored();
     }
 
     std::vector<caster> casters_;
     isa level_;
-    std::optional<point_light> near_light_;
     detail::light_rays rays_;
-    std::vector<plane_state> planes_;                        ///< one, or six of which some are empty
+    detail::tiled_planes planes_;
     std::vector<std::optional<detail::grid_caster>> grids_;  ///< of the casters, under parallel light
 };
 

@@ -164,18 +164,18 @@ class horizon_triangles {
             // The strips that the cells lie in.
             constexpr double beside = 0x1p-8;
             const double from = y - horizon.first_strip() - grid.slope * x;
-            floats met = floats{} + std::numeric_limits<float>::infinity(), may_meet = 0.0f - met;
+            floats dark_below = floats{} + std::numeric_limits<float>::infinity(), lit_above = 0.0f - dark_below;
             const int last = static_cast<int>(from + 1 + beside);
             for (int strip = static_cast<int>(from - grid.slope - beside); strip <= last; ++strip) {
                 floats least, most;
-                load(least, horizon.met(x) + strip);
-                load(most, horizon.may_meet(x) + strip);
-                met = least < met ? least : met;
-                may_meet = most > may_meet ? most : may_meet;
+                load(least, horizon.dark_below(x) + strip);
+                load(most, horizon.lit_above(x) + strip);
+                dark_below = least < dark_below ? least : dark_below;
+                lit_above = most > lit_above ? most : lit_above;
             }
             const auto margin = static_cast<float>(horizon.margin());
-            met = met - margin;
-            may_meet = may_meet + margin;
+            dark_below = dark_below - margin;
+            lit_above = lit_above + margin;
             floats row;
             iota<float, N>(row);
             const auto dx = static_cast<float>(whole.eye_.x - x);
@@ -183,7 +183,7 @@ class horizon_triangles {
             const floats error = 4 * margin * ((2 + numeric::abs(dx)) + (dy < 0.0f ? 0.0f - dy : dy));
             const floats eye = static_cast<float>(whole.eye_u_) - error;
             const triangle_lanes<N> known_of{
-                met, may_meet, eye, dy, dx, static_cast<float>(grid.slope), static_cast<float>(whole.rise_)};
+                dark_below, lit_above, eye, dy, dx, static_cast<float>(grid.slope), static_cast<float>(whole.rise_)};
             lanes<std::int32_t, N> lower, upper;
             if (grid.is_rising) {
                 known_of(lower, a, b, d, b - a, d - b, a);
@@ -207,9 +207,9 @@ class horizon_triangles {
     struct triangle_lanes {
         using floats = insonify::detail::lanes<float, N>;
         using ints = insonify::detail::lanes<std::int32_t, N>;
-        floats met, may_meet;  ///< bounds: dark below the first, lit above the second
-        floats eye;            ///< what the plane has to pass below at the camera
-        floats dy;             ///< from the cell to the camera
+        floats dark_below, lit_above;  ///< bounds: dark below the first, lit above the second
+        floats eye;                    ///< what the plane has to pass below at the camera
+        floats dy;                     ///< from the cell to the camera
         float dx, slope, enough;
 
         /// @param along_x, along_y  how u rises in it
@@ -222,8 +222,8 @@ class horizon_triangles {
             const floats rise = along_x + slope * along_y;
             const ints is_above = ints(base + along_x * dx + along_y * dy < eye);
             const ints is_facing = ints(rise > enough), is_averted = ints(rise < 0.0f - enough);
-            const ints is_dark = (is_above & is_averted) | ((is_above | is_facing) & ints(highest < met));
-            const ints is_lit = is_above & is_facing & ints(lowest > may_meet);
+            const ints is_dark = (is_above & is_averted) | ((is_above | is_facing) & ints(highest < dark_below));
+            const ints is_lit = is_above & is_facing & ints(lowest > lit_above);
             answer = is_lit ? ints{} + static_cast<std::int32_t>(known::lit)
                             : ints{} + static_cast<std::int32_t>(known::nothing);
             answer = is_dark ? ints{} + static_cast<std::int32_t>(known::dark) : answer;

@@ -113,7 +113,7 @@ class horizon_walk {
     /// u on the edges that the ray crosses in one column of cells.
     struct crossing {
         double lowest = -nothing, highest = nothing;
-        double surely = nothing;  ///< the largest u that certainly lies before the point
+        double certain = nothing;  ///< the largest u that certainly lies before the point
     };
 
     double row_at(double column) const { return w_ + grid_.slope * column; }
@@ -168,11 +168,11 @@ class horizon_walk {
             const int first_row = held_row(low - beside_), last_row = held_row(high + beside_);
             if (highest(column, first_row, last_row) < doubt) continue;
             const double limit = is_first && is_above ? x_ - column : 2;
-            const crossing met = cross(column, limit);
-            if (met.highest < doubt) continue;
+            const crossing crossed = cross(column, limit);
+            if (crossed.highest < doubt) continue;
             const bool is_inside = low >= beside_ && high <= grid_.rows - 1 - beside_;
-            if (is_above && is_inside && met.surely > u_ + horizon_.margin()) return true;
-            if (!is_above && met.lowest > u_ + horizon_.margin()) continue;
+            if (is_above && is_inside && crossed.certain > u_ + horizon_.margin()) return true;
+            if (!is_above && crossed.lowest > u_ + horizon_.margin()) continue;
             for (int row = first_row; row <= last_row; ++row) {
                 const auto triangle = static_cast<std::uint32_t>(grid_.first_triangle(column, row));
                 if (decide(triangle) || decide(triangle + 1)) return true;
@@ -186,8 +186,8 @@ class horizon_walk {
         const int strip = static_cast<int>(w_ - horizon_.first_strip());
         if (!horizon_.has_strip(strip)) return known::nothing;
         const horizon_bound b = horizon_.bound(column, strip);
-        if (u_ < static_cast<double>(b.met) - horizon_.margin()) return known::dark;
-        return u_ > static_cast<double>(b.may_meet) + horizon_.margin() ? known::lit : known::nothing;
+        if (u_ < static_cast<double>(b.dark_below) - horizon_.margin()) return known::dark;
+        return u_ > static_cast<double>(b.lit_above) + horizon_.margin() ? known::lit : known::nothing;
     }
 
     /// @param limit  position of the point, in columns from this one
@@ -199,19 +199,19 @@ class horizon_walk {
                                                                                row;
         const auto a = static_cast<double>(here[0]), b = static_cast<double>(ahead[0]),
                    c = static_cast<double>(here[1]), d = static_cast<double>(ahead[1]);
-        crossing met;
+        crossing found;
         // An edge is crossed a share s of the column from its beginning, a share t along it.
         const auto add = [&](double s, double first, double last, double t) {
             if (s > limit + beside_) return;
             const double u = first + t * (last - first);
-            met.lowest = (std::min)(met.lowest, u);
-            met.highest = (std::max)(met.highest, u);
-            if (s <= limit - beside_) met.surely = (std::max)(met.surely, u);
+            found.lowest = (std::min)(found.lowest, u);
+            found.highest = (std::max)(found.highest, u);
+            if (s <= limit - beside_) found.certain = (std::max)(found.certain, u);
         };
         if (high <= 0 || low >= grid_.rows - 1) {  // along the border
             add(0, a, c, high <= 0 ? 0 : 1);
             add(1, b, d, high <= 0 ? 0 : 1);
-            return met;
+            return found;
         }
         const double start = low - row, end = start + slope, up = (1 - start) / slope;
         const bool stays = end <= 1;
@@ -228,11 +228,11 @@ class horizon_walk {
         } else {
             add((1 - start) / (1 + slope), c, b, (1 - start) / (1 + slope));
         }
-        if (stays || row + 2 >= grid_.rows) return met;
+        if (stays || row + 2 >= grid_.rows) return found;
         const auto e = static_cast<double>(here[2]), f = static_cast<double>(ahead[2]);
         add(1, d, f, end - 1);
         if (!grid_.is_rising) add((2 - start) / (1 + slope), e, d, (2 - start) / (1 + slope));
-        return met;
+        return found;
     }
 
     const horizon_bounds& horizon_;

@@ -1,4 +1,4 @@
-// A plane that rays of the light cross, cut into tiles, and which casters touch each tile.
+// The planes that rays of the light cross, cut into tiles, and which casters touch each tile.
 #pragma once
 
 #include <insonify/shadow/detail/light_planes.hpp>
@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,7 @@ std::pair<glm::dvec2, glm::dvec2> extent_on(const light_plane& plane, const Corn
     return {lower, upper};
 }
 
+/// One plane.
 struct tiled_plane {
     static constexpr std::uint32_t no_caster = invalid_id, several_casters = invalid_id - 1;
 
@@ -62,6 +64,51 @@ struct tiled_plane {
 
   private:
     static int clamped(double at, int count) { return static_cast<int>((std::min)((std::max)(0.0, at), count - 1.0)); }
+};
+
+/// All planes of one light, with their tiles counted together: one across parallel light, or the sides of a cube around
+/// a near one, of which those that no point lies over have no casters and no tiles.
+class tiled_planes {
+  public:
+    explicit tiled_planes(const any_light& light) {
+        if (const auto* point = std::get_if<point_light>(&light)) near_light_ = *point;
+    }
+    void add(tiled_plane plane) {
+        starts_.push_back(tile_count() + (plane.casters.empty() ? 0 : plane.tiles.count()));
+        planes_.push_back(std::move(plane));
+    }
+
+    bool empty() const { return planes_.empty(); }
+    bool are_near() const { return near_light_.has_value(); }
+    const tiled_plane& front() const { return planes_.front(); }
+    std::size_t tile_count() const { return starts_.back(); }
+
+    /// The plane of a tile, and the number of the tile on that plane.
+    std::pair<const tiled_plane*, std::size_t> plane_of(std::size_t tile) const {
+        const auto after = std::upper_bound(starts_.begin(), starts_.end(), tile);
+        return {&planes_[static_cast<std::size_t>(after - starts_.begin() - 1)], tile - *(after - 1)};
+    }
+
+    /// Where a point lies.
+    struct place {
+        const tiled_plane* plane;  ///< null where no caster blocks its light
+        glm::dvec3 seen;           ///< on the plane, after the division
+        std::size_t tile;          ///< among all
+        std::uint32_t occupant;    ///< of the tile
+    };
+    place of(const glm::dvec3& p) const {
+        const auto side = static_cast<std::size_t>(near_light_ ? light_plane::side_of(*near_light_, p) : 0);
+        const tiled_plane& on = planes_[side];
+        if (on.casters.empty()) return {};
+        const glm::dvec3 before = on.plane(p), seen = near_light_ ? light_plane::seen(before) : before;
+        const std::size_t tile = on.tile_of(seen);
+        return {&on, seen, starts_[side] + tile, on.occupant[tile]};
+    }
+
+  private:
+    std::optional<point_light> near_light_;
+    std::vector<tiled_plane> planes_;
+    std::vector<std::size_t> starts_{0};  ///< first tile of each plane, then their number
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
