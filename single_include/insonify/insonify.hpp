@@ -23877,6 +23877,83 @@ class label_tally {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/sonar/side_scan/detail/echo_bins.hpp ---------------------------------------------
+// The range bins of one ping: power, lengths of lit and dark seabed, and the label that has most of each bin.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// Power and contents of a range bin; lengths are in bins.
+struct echo_bin {
+    float bottom = 0, target = 0;  ///< power
+    float lit = 0;                 ///< length of seabed
+    float dark_by_seabed = 0, dark_by_target = 0;
+    float of_seabed = 0;  ///< length of the first type in the bin; a label_tally has the others
+    // The labels with the largest sums in the bin.
+    std::uint16_t instance = labels::no_instance, caster = labels::by_seabed;
+    std::uint8_t seabed = labels::no_seabed;
+};
+
+/// The bins, and the sums of the labels that are not the first of their bin.
+class echo_bins {
+  public:
+    explicit echo_bins(std::size_t count) : bins_(count), echoing_(count), casting_(count), types_(count) {}
+
+    void clear() { std::fill(bins_.begin(), bins_.end(), echo_bin{}); }
+    std::size_t size() const { return bins_.size(); }
+    echo_bin& operator[](std::size_t bin) { return bins_[bin]; }
+    std::span<const echo_bin> all() const { return bins_; }
+
+    /// Adds the echo of a target to the label of a bin.
+    void add_instance(std::size_t bin, std::uint16_t instance, float power) { echoing_.add(bin, instance, power); }
+    /// Adds a piece of seabed to the labels of a bin.
+    /// @param caster  of its shadow, or is_lit
+    void add_seabed(std::size_t number, std::uint8_t type, std::uint16_t caster, float length) {
+        echo_bin& bin = bins_[number];
+        if (caster == labels::is_lit)
+            bin.lit += length;
+        else if (caster == labels::by_seabed)
+            bin.dark_by_seabed += length;
+        else
+            bin.dark_by_target += length, casting_.add(number, caster, length);
+        if (bin.seabed == labels::no_seabed) bin.seabed = type;
+        if (bin.seabed == type)
+            bin.of_seabed += length;
+        else
+            types_.add(number, type, length);
+    }
+
+    /// Sets the labels with the largest sums in each bin, and clears the sums.
+    void label(bool has_targets) {
+        if (!types_.empty())
+            for (std::size_t b = 0; b < bins_.size(); ++b) {
+                const auto [type, length] = types_.largest(b, labels::no_seabed);
+                if (length > bins_[b].of_seabed) bins_[b].seabed = static_cast<std::uint8_t>(type);
+            }
+        if (has_targets)
+            for (std::size_t b = 0; b < bins_.size(); ++b) {
+                echo_bin& bin = bins_[b];
+                bin.instance = echoing_.largest(b, labels::no_instance).label;
+                const auto [caster, length] = casting_.largest(b, labels::by_seabed);
+                bin.caster = length >= bin.dark_by_seabed ? caster : labels::by_seabed;
+            }
+        echoing_.clear(), casting_.clear(), types_.clear();
+    }
+
+  private:
+    std::vector<echo_bin> bins_;
+    label_tally echoing_, casting_, types_;
+};
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/sonar/side_scan/detail/ping_fan.hpp ----------------------------------------------
 // The rays of a ping, in the plane across the track, from nadir outwards.
 //
@@ -24516,17 +24593,6 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Power and contents of a range bin; lengths are in bins.
-struct echo_bin {
-    float bottom = 0, target = 0;  ///< power
-    float lit = 0;                 ///< length of seabed
-    float dark_by_seabed = 0, dark_by_target = 0;
-    float of_seabed = 0;  ///< length of the first type in the bin; a label_tally has the others
-    // The labels with the largest sums in the bin.
-    std::uint16_t instance = labels::no_instance, caster = labels::by_seabed;
-    std::uint8_t seabed = labels::no_seabed;
-};
-
 /// Traces one ping after the other, reusing memory and, if the attitude is the same, the fan.
 template <class Law, bool Labelled>
 class ping_tracer {
@@ -24545,10 +24611,7 @@ class ping_tracer {
           step_((std::min)(axis_.bin, cell)),
           profile_(bottom, (std::max)(step_, 0.5 * cell), start, range_),
           spacing_(window.ping_spacing),
-          bins_(static_cast<std::size_t>(window.bins)),
-          echoing_(bins_.size()),
-          casting_(bins_.size()),
-          types_(bins_.size()) {
+          bins_(static_cast<std::size_t>(window.bins)) {
         for (const sliced_target& t : targets) {
             top_ = (std::max)(top_, t.top());
             foot_ = (std::min)(foot_, t.foot());
@@ -24557,7 +24620,7 @@ class ping_tracer {
 
     /// @returns one per bin, valid until the next call
     std::span<const echo_bin> trace(const ping_frame& p) {
-        std::fill(bins_.begin(), bins_.end(), echo_bin{});
+        bins_.clear();
         profile_.sample(p);
         const double altitude = p.position().z;
         double lowest = profile_.lowest(), highest = profile_.highest();
@@ -24570,12 +24633,12 @@ class ping_tracer {
             fan_shape::around((altitude - lowest) * stretch, altitude - highest, altitude - (std::max)(top_, highest));
         const std::array<double, 3> attitude{p.sine_roll(), p.cosine_roll(), p.cosine_pitch()};
         if (!(shape == fan_.shape()) || attitude != attitude_) build_fan(shape, attitude);
-        if (!(altitude > lowest) || profile_[0].down <= 0) return bins_;  // the sonar is below the seabed
+        if (!(altitude > lowest) || profile_[0].down <= 0) return bins_.all();  // the sonar is below the seabed
         gather_targets(p);
         trace_bottom(p);
         if (has_targets_) add_target_echoes();
-        if constexpr (Labelled) label_bins();
-        return bins_;
+        if constexpr (Labelled) bins_.label(has_targets_);
+        return bins_.all();
     }
 
     /// Ground range up to which the bottom must be sampled, metres.
@@ -24711,26 +24774,9 @@ class ping_tracer {
             distribute(bins_.size(), static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
                        [&](std::size_t bin, float fraction, float) {
                            bins_[bin].target += power * fraction;
-                           if constexpr (Labelled) echoing_.add(bin, hit.instance, power * fraction);
+                           if constexpr (Labelled) bins_.add_instance(bin, hit.instance, power * fraction);
                        });
         });
-    }
-
-    /// Sets the labels with the largest sum in each bin.
-    void label_bins() {
-        if (!types_.empty())
-            for (std::size_t b = 0; b < bins_.size(); ++b) {
-                const auto [type, length] = types_.largest(b, labels::no_seabed);
-                if (length > bins_[b].of_seabed) bins_[b].seabed = static_cast<std::uint8_t>(type);
-            }
-        if (has_targets_)
-            for (std::size_t b = 0; b < bins_.size(); ++b) {
-                echo_bin& bin = bins_[b];
-                bin.instance = echoing_.largest(b, labels::no_instance).label;
-                const auto [caster, length] = casting_.largest(b, labels::by_seabed);
-                bin.caster = length >= bin.dark_by_seabed ? caster : labels::by_seabed;
-            }
-        echoing_.clear(), casting_.clear(), types_.clear();
     }
 
     /// The target between the sonar and a point of ray k, or is_lit.
@@ -24752,20 +24798,7 @@ class ping_tracer {
                      b = axis_.position(px + to * dx, p.down + to * down);
         const std::uint8_t type = from + to < 1 ? p.type : q.type;
         distribute(bins_.size(), static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
-                   [&](std::size_t number, float, float length) {
-                       echo_bin& bin = bins_[number];
-                       if (caster == labels::is_lit)
-                           bin.lit += length;
-                       else if (caster == labels::by_seabed)
-                           bin.dark_by_seabed += length;
-                       else
-                           bin.dark_by_target += length, casting_.add(number, caster, length);
-                       if (bin.seabed == labels::no_seabed) bin.seabed = type;
-                       if (bin.seabed == type)
-                           bin.of_seabed += length;
-                       else
-                           types_.add(number, type, length);
-                   });
+                   [&](std::size_t bin, float, float length) { bins_.add_seabed(bin, type, caster, length); });
     }
 
     /// Power that a surface of reflectivity 1 returns from a ray: the ray's cross-section over the sine of the grazing
@@ -24792,8 +24825,7 @@ class ping_tracer {
     std::vector<float> ray_power_;
     target_hits hits_;
     bool has_targets_ = false;
-    std::vector<echo_bin> bins_;
-    label_tally echoing_, casting_, types_;
+    echo_bins bins_;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS

@@ -7,9 +7,8 @@
 #pragma once
 
 #include <insonify/seabed/any.hpp>
-#include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/side_scan/detail/bottom_profile.hpp>
-#include <insonify/sonar/side_scan/detail/label_tally.hpp>
+#include <insonify/sonar/side_scan/detail/echo_bins.hpp>
 #include <insonify/sonar/side_scan/detail/ping_fan.hpp>
 #include <insonify/sonar/side_scan/detail/range_axis.hpp>
 #include <insonify/sonar/side_scan/detail/target_hits.hpp>
@@ -22,17 +21,6 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
-
-/// Power and contents of a range bin; lengths are in bins.
-struct echo_bin {
-    float bottom = 0, target = 0;  ///< power
-    float lit = 0;                 ///< length of seabed
-    float dark_by_seabed = 0, dark_by_target = 0;
-    float of_seabed = 0;  ///< length of the first type in the bin; a label_tally has the others
-    // The labels with the largest sums in the bin.
-    std::uint16_t instance = labels::no_instance, caster = labels::by_seabed;
-    std::uint8_t seabed = labels::no_seabed;
-};
 
 /// Traces one ping after the other, reusing memory and, if the attitude is the same, the fan.
 template <class Law, bool Labelled>
@@ -52,10 +40,7 @@ class ping_tracer {
           step_((std::min)(axis_.bin, cell)),
           profile_(bottom, (std::max)(step_, 0.5 * cell), start, range_),
           spacing_(window.ping_spacing),
-          bins_(static_cast<std::size_t>(window.bins)),
-          echoing_(bins_.size()),
-          casting_(bins_.size()),
-          types_(bins_.size()) {
+          bins_(static_cast<std::size_t>(window.bins)) {
         for (const sliced_target& t : targets) {
             top_ = (std::max)(top_, t.top());
             foot_ = (std::min)(foot_, t.foot());
@@ -64,7 +49,7 @@ class ping_tracer {
 
     /// @returns one per bin, valid until the next call
     std::span<const echo_bin> trace(const ping_frame& p) {
-        std::fill(bins_.begin(), bins_.end(), echo_bin{});
+        bins_.clear();
         profile_.sample(p);
         const double altitude = p.position().z;
         double lowest = profile_.lowest(), highest = profile_.highest();
@@ -77,12 +62,12 @@ class ping_tracer {
             fan_shape::around((altitude - lowest) * stretch, altitude - highest, altitude - (std::max)(top_, highest));
         const std::array<double, 3> attitude{p.sine_roll(), p.cosine_roll(), p.cosine_pitch()};
         if (!(shape == fan_.shape()) || attitude != attitude_) build_fan(shape, attitude);
-        if (!(altitude > lowest) || profile_[0].down <= 0) return bins_;  // the sonar is below the seabed
+        if (!(altitude > lowest) || profile_[0].down <= 0) return bins_.all();  // the sonar is below the seabed
         gather_targets(p);
         trace_bottom(p);
         if (has_targets_) add_target_echoes();
-        if constexpr (Labelled) label_bins();
-        return bins_;
+        if constexpr (Labelled) bins_.label(has_targets_);
+        return bins_.all();
     }
 
     /// Ground range up to which the bottom must be sampled, metres.
@@ -218,26 +203,9 @@ class ping_tracer {
             distribute(bins_.size(), static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
                        [&](std::size_t bin, float fraction, float) {
                            bins_[bin].target += power * fraction;
-                           if constexpr (Labelled) echoing_.add(bin, hit.instance, power * fraction);
+                           if constexpr (Labelled) bins_.add_instance(bin, hit.instance, power * fraction);
                        });
         });
-    }
-
-    /// Sets the labels with the largest sum in each bin.
-    void label_bins() {
-        if (!types_.empty())
-            for (std::size_t b = 0; b < bins_.size(); ++b) {
-                const auto [type, length] = types_.largest(b, labels::no_seabed);
-                if (length > bins_[b].of_seabed) bins_[b].seabed = static_cast<std::uint8_t>(type);
-            }
-        if (has_targets_)
-            for (std::size_t b = 0; b < bins_.size(); ++b) {
-                echo_bin& bin = bins_[b];
-                bin.instance = echoing_.largest(b, labels::no_instance).label;
-                const auto [caster, length] = casting_.largest(b, labels::by_seabed);
-                bin.caster = length >= bin.dark_by_seabed ? caster : labels::by_seabed;
-            }
-        echoing_.clear(), casting_.clear(), types_.clear();
     }
 
     /// The target between the sonar and a point of ray k, or is_lit.
@@ -259,20 +227,7 @@ class ping_tracer {
                      b = axis_.position(px + to * dx, p.down + to * down);
         const std::uint8_t type = from + to < 1 ? p.type : q.type;
         distribute(bins_.size(), static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
-                   [&](std::size_t number, float, float length) {
-                       echo_bin& bin = bins_[number];
-                       if (caster == labels::is_lit)
-                           bin.lit += length;
-                       else if (caster == labels::by_seabed)
-                           bin.dark_by_seabed += length;
-                       else
-                           bin.dark_by_target += length, casting_.add(number, caster, length);
-                       if (bin.seabed == labels::no_seabed) bin.seabed = type;
-                       if (bin.seabed == type)
-                           bin.of_seabed += length;
-                       else
-                           types_.add(number, type, length);
-                   });
+                   [&](std::size_t bin, float, float length) { bins_.add_seabed(bin, type, caster, length); });
     }
 
     /// Power that a surface of reflectivity 1 returns from a ray: the ray's cross-section over the sine of the grazing
@@ -299,8 +254,7 @@ class ping_tracer {
     std::vector<float> ray_power_;
     target_hits hits_;
     bool has_targets_ = false;
-    std::vector<echo_bin> bins_;
-    label_tally echoing_, casting_, types_;
+    echo_bins bins_;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
