@@ -62,9 +62,15 @@ inline std::string quoted(std::string_view word) {
     return text;
 }
 
+[[noreturn]] inline void refuse_text(std::string_view argument, std::string_view value, std::string_view expected) {
+    std::string message(argument);
+    for (const std::string_view part : {std::string_view(" is "), value, std::string_view(", expected "), expected})
+        message += part;
+    raise(invalid_input(message));
+}
 template <arithmetic Number>
 [[noreturn]] void refuse(std::string_view argument, Number value, std::string_view expected) {
-    raise(invalid_input(std::string(argument) + " is " + to_text(value) + ", expected " + std::string(expected)));
+    refuse_text(argument, to_text(value), expected);
 }
 
 /// Preconditions of public functions read: `require(width > 0, "width", width, "at least 1")`.

@@ -43,12 +43,13 @@ class image {
     /// @throws invalid_input for rows of different lengths
     INSONIFY_TAGGED image(std::initializer_list<std::initializer_list<T>> rows)
         : width_(rows.size() == 0 ? 0 : static_cast<int>(rows.begin()->size())),
-          height_(static_cast<int>(rows.size())) {
-        pixels_.reserve(area());
+          height_(static_cast<int>(rows.size())),
+          pixels_(area()) {
+        T* to = pixels_.data();
         for (const auto& row : rows) {
             detail::require(row.size() == static_cast<std::size_t>(width_), "row length", row.size(),
                             "that of the first row");
-            pixels_.insert(pixels_.end(), row.begin(), row.end());
+            to = std::copy(row.begin(), row.end(), to);
         }
     }
 
@@ -113,7 +114,7 @@ class image {
 
     int width_ = 0;
     int height_ = 0;
-    detail::uninitialized_vector<T> pixels_;
+    detail::uninitialized_array<T> pixels_;
 };
 
 inline namespace INSONIFY_FLAGS {

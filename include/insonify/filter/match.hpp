@@ -6,13 +6,13 @@
 #pragma once
 
 #include <insonify/core/detail/portable.hpp>
+#include <insonify/core/detail/radix_sort.hpp>
 #include <insonify/core/image.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/core/quantize.hpp>
 #include <insonify/filter/histogram.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -31,34 +31,6 @@ struct distribution {
     INSONIFY_MEMBER std::uint64_t total() const { return cumulative.empty() ? 0 : cumulative.back(); }
 };
 
-namespace detail::inline INSONIFY_FLAGS {
-
-/// Bits that compare as unsigned integers the way floats compare, and back.
-constexpr std::uint32_t ordered_bits(float value) {
-    const auto bits = numeric::bit_cast<std::uint32_t>(value);
-    return bits ^ ((bits >> 31) != 0 ? 0xFFFFFFFFu : 0x80000000u);
-}
-constexpr float from_ordered_bits(std::uint32_t bits) {
-    return numeric::bit_cast<float>(bits ^ ((bits >> 31) != 0 ? 0x80000000u : 0xFFFFFFFFu));
-}
-
-/// Radix sort by three digits of 11 bits: five to six times as fast as std::sort on millions of values.
-inline void sort_keys(std::vector<std::uint32_t>& keys) {
-    constexpr std::uint32_t mask = 2047;
-    std::array<std::array<std::size_t, mask + 1>, 3> starts{};
-    for (const std::uint32_t key : keys)
-        for (std::size_t digit = 0; digit < 3; ++digit) ++starts[digit][(key >> (11 * digit)) & mask];
-    std::vector<std::uint32_t> sorted(keys.size());
-    for (std::size_t digit = 0; digit < 3; ++digit) {
-        std::size_t start = 0;
-        for (std::size_t& entry : starts[digit]) start += std::exchange(entry, start);
-        for (const std::uint32_t key : keys) sorted[starts[digit][(key >> (11 * digit)) & mask]++] = key;
-        keys.swap(sorted);
-    }
-}
-
-}  // namespace detail::inline INSONIFY_FLAGS
-
 inline namespace INSONIFY_ONCE {
 
 /// Distribution of the finite pixels; others are skipped.
@@ -74,7 +46,7 @@ INSONIFY_FUNCTION distribution distribution_of(image_view<const float> source) {
             if (numeric::is_finite(pixel)) keys.push_back(detail::ordered_bits(pixel + 0.0f));
         }
     }
-    detail::sort_keys(keys);
+    detail::radix_sort(keys);
     distribution result;
     for (std::size_t i = 0; i < keys.size(); ++i) {
         if (i + 1 < keys.size() && keys[i + 1] == keys[i]) continue;

@@ -38,8 +38,8 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// A mesh with uninitialized storage, for meshes that are rebuilt for every picture.
 struct uninitialized_mesh {
-    uninitialized_vector<glm::vec3> positions, normals;
-    uninitialized_vector<glm::uvec3> triangles;
+    uninitialized_array<glm::vec3> positions, normals;
+    uninitialized_array<glm::uvec3> triangles;
 
     explicit uninitialized_mesh(const shared_pool& memory) : positions(memory), normals(memory), triangles(memory) {}
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -39,37 +40,35 @@ namespace detail::inline INSONIFY_FLAGS {
 /// Net directed edges of a mesh: those that triangles traverse more often in one direction than in the other.
 inline std::vector<std::pair<std::uint32_t, std::uint32_t>> unbalanced_edges(const mesh& m) {
     const std::vector<std::uint32_t> first = weld(m.positions);
-    // Counting sort of edges by their lower vertex.
-    struct half_edge {
-        std::uint32_t other;
-        std::int32_t way;  ///< 1 if it runs from the lower vertex to the higher one, else -1
-    };
-    std::vector<std::uint32_t> starts(m.positions.size() + 1, 0);
-    const auto each = [&](const auto& visit) {
-        for (const glm::uvec3& t : m.triangles)
-            for (int i = 0; i < 3; ++i) {
-                const std::uint32_t a = first[t[i]], b = first[t[(i + 1) % 3]];
-                if (a < b) visit(a, half_edge{b, 1});
-                if (b < a) visit(b, half_edge{a, -1});
-            }
-    };
-    each([&](std::uint32_t low, const half_edge&) { ++starts[low + 1]; });
-    for (std::size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
-    std::vector<half_edge> edges(starts.back());
-    std::vector<std::uint32_t> next(starts.begin(), starts.end() - 1);
-    each([&](std::uint32_t low, const half_edge& e) { edges[next[low]++] = e; });
-
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> open;
-    for (std::uint32_t low = 0; low < m.positions.size(); ++low) {
-        const auto begin = edges.begin() + starts[low], end = edges.begin() + starts[low + 1];
-        std::sort(begin, end, [](const half_edge& a, const half_edge& b) { return a.other < b.other; });
-        for (auto e = begin; e != end;) {
-            std::int32_t sum = 0;
-            const std::uint32_t other = e->other;
-            for (; e != end && e->other == other; ++e) sum += e->way;
-            for (; sum > 0; --sum) open.emplace_back(low, other);
-            for (; sum < 0; ++sum) open.emplace_back(other, low);
+    using edge = std::pair<std::uint32_t, std::uint32_t>;
+    std::vector<edge> edges;
+    edges.reserve(3 * m.triangles.size());
+    for (const glm::uvec3& t : m.triangles)
+        for (int i = 0; i < 3; ++i) {
+            const edge e{first[t[i]], first[t[(i + 1) % 3]]};
+            if (e.first != e.second) edges.push_back(e);
         }
+    // Counting sorts, by the higher vertex and then by the lower one, bring the edges between two vertices together.
+    const auto lower = [](const edge& e) { return (std::min)(e.first, e.second); };
+    const auto higher = [](const edge& e) { return (std::max)(e.first, e.second); };
+    std::vector<edge> sorted(edges.size());
+    for (const bool by_lower : {false, true}) {
+        std::vector<std::uint32_t> starts(m.positions.size() + 1, 0);
+        const auto vertex = [&](const edge& e) { return by_lower ? lower(e) : higher(e); };
+        for (const edge& e : edges) ++starts[vertex(e) + 1];
+        for (std::size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
+        for (const edge& e : edges) sorted[starts[vertex(e)]++] = e;
+        edges.swap(sorted);
+    }
+
+    std::vector<edge> open;
+    for (std::size_t i = 0; i < edges.size();) {
+        const std::uint32_t low = lower(edges[i]), high = higher(edges[i]);
+        std::int64_t balance = 0;
+        for (; i < edges.size() && lower(edges[i]) == low && higher(edges[i]) == high; ++i)
+            balance += edges[i].first == low ? 1 : -1;
+        for (; balance > 0; --balance) open.emplace_back(low, high);
+        for (; balance < 0; ++balance) open.emplace_back(high, low);
     }
     return open;
 }

@@ -1,14 +1,13 @@
 // Checks whether a mesh is closed and consistently oriented, as imported targets should be.
 #pragma once
 
+#include <insonify/core/detail/radix_sort.hpp>
 #include <insonify/core/linear.hpp>
 #include <insonify/geometry/mesh.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -41,34 +40,37 @@ struct topology {
     }
 };
 
-/// For each position, the index of the first equal one; NaN equals nothing.
+/// For each position, the index of the first equal one; NaN equals nothing. Linear in the positions.
 inline std::vector<std::uint32_t> weld(const std::vector<glm::vec3>& positions) {
-    const auto key = [&](std::uint32_t i) {
-        const glm::vec3& p = positions[i];
-        return std::tuple(p.x, p.y, p.z);
-    };
-    const auto is_nan = [&](std::uint32_t i) { return !(key(i) == key(i)); };
-
-    std::vector<std::uint32_t> order(positions.size()), first(positions.size());
-    std::iota(order.begin(), order.end(), 0u);
-    first = order;
-    order.erase(std::remove_if(order.begin(), order.end(), is_nan), order.end());
-    std::sort(order.begin(), order.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
-    for (std::size_t i = 1; i < order.size(); ++i)
-        if (key(order[i]) == key(order[i - 1])) first[order[i]] = first[order[i - 1]];
+    std::vector<std::uint32_t> first(positions.size());
+    std::vector<detail::keyed> order;
+    order.reserve(positions.size());
+    // Adding 0 makes one value of both zeros.
+    const auto bits = [&](std::uint32_t i, int axis) { return detail::ordered_bits(positions[i][axis] + 0.0f); };
+    for (std::uint32_t i = 0; i < positions.size(); ++i) {
+        first[i] = i;
+        if (positions[i] == positions[i]) order.push_back({bits(i, 2), i});
+    }
+    // By z, then by x and y.
+    detail::radix_sort(order);
+    for (detail::keyed& item : order) item.key = std::uint64_t{bits(item.number, 0)} << 32 | bits(item.number, 1);
+    detail::radix_sort(order);
+    for (std::size_t i = 1; i < order.size(); ++i) {
+        const std::uint32_t here = order[i].number, before = order[i - 1].number;
+        if (positions[here] == positions[before]) first[here] = first[before];
+    }
     return first;
 }
 
-/// O(n log n) in the triangles.
+/// Linear in the triangles.
 /// @throws invalid_input if an index has no position
 inline topology inspect(const mesh& m) {
     validate(m);
     topology out;
     const std::vector<std::uint32_t> first = weld(m.positions);
 
-    // An edge is sorted under its lower vertex; the third element is the triangle's direction along it.
-    std::vector<std::tuple<std::uint32_t, std::uint32_t, bool>> sides;
+    // An edge's key has its lower vertex first; the number is the triangle's direction along it.
+    std::vector<detail::keyed> sides;
     std::vector<bool> used(m.positions.size());
     std::vector<std::uint32_t> joined = first;  // union-find: a vertex of the same piece; the root is its id
     const auto piece_of = [&](std::uint32_t vertex) {
@@ -86,13 +88,13 @@ inline topology inspect(const mesh& m) {
         ++out.triangles;
         for (std::size_t i = 0; i < 3; ++i) {
             const auto [a, b] = std::pair(corners[i], corners[(i + 1) % 3]);
-            sides.emplace_back((std::min)(a, b), (std::max)(a, b), a < b);
+            sides.push_back({std::uint64_t{(std::min)(a, b)} << 32 | (std::max)(a, b), a < b ? 1u : 0u});
             out.vertices += used[a] ? 0u : 1u;
             used[a] = true;
             joined[piece_of(a)] = piece_of(b);
         }
     }
-    std::sort(sides.begin(), sides.end());
+    detail::radix_sort(sides);
 
     for (const glm::uvec3& t : m.triangles) {
         const std::uint32_t piece = piece_of(t.x);
@@ -105,12 +107,11 @@ inline topology inspect(const mesh& m) {
         if (used[v] && joined[v] == v && !(volume[v] > 0)) ++out.inward_pieces;
 
     for (std::size_t i = 0, end; i < sides.size(); i = end) {
-        const auto [a, b, backwards] = sides[i];
-        for (end = i + 1; end < sides.size() && std::get<0>(sides[end]) == a && std::get<1>(sides[end]) == b;) ++end;
+        for (end = i + 1; end < sides.size() && sides[end].key == sides[i].key;) ++end;
         ++out.edges;
         if (end - i == 1)
             ++out.boundary_edges;
-        else if (end - i > 2 || std::get<2>(sides[i + 1]) == backwards)
+        else if (end - i > 2 || sides[i + 1].number == sides[i].number)
             ++out.tangled_edges;
     }
     return out;

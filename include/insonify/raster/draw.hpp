@@ -121,7 +121,7 @@ template <varying_shader VertexShader, class LaneShader, depth_precision Depth =
 draw_stats draw(const mesh_view& m, const VertexShader& vertex_shader, const LaneShader& shader,
                 const framebuffer<void>& target, const draw_options<Depth>& options = {}, E&& ex = {}) {
     using varyings = varyings_of<VertexShader>;
-    detail::uninitialized_vector<detail::varyings_record<varyings>> records(m.positions.size(), detail::memory_of(ex));
+    detail::uninitialized_array<detail::varyings_record<varyings>> records(m.positions.size(), detail::memory_of(ex));
     const auto shade = [&](const auto& triangles, auto& tile, float sign) {
         using screen = std::remove_cvref_t<decltype(triangles.screen)>;
         if constexpr (requires { shader.clear(rect{}); })

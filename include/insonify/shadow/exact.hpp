@@ -70,13 +70,13 @@ class exact_occlusion {
     /// See triangle_occlusion.
     /// @param eye  position of the camera
     template <executor E>
-    insonify::detail::uninitialized_vector<known> known_triangles(std::uint32_t caster, const glm::dvec3& eye,
-                                                                  E& ex) const {
+    insonify::detail::uninitialized_array<known> known_triangles(std::uint32_t caster, const glm::dvec3& eye,
+                                                                 E& ex) const {
         if (caster >= grids_.size() || !grids_[caster]) return {};
         const shadow::caster& c = casters_[caster];
         const detail::lit_grid& grid = grids_[caster]->grid();
         const detail::horizon_triangles triangles = grids_[caster]->triangles(eye);
-        insonify::detail::uninitialized_vector<known> answers(c.mesh.triangles.size(), insonify::detail::memory_of(ex));
+        insonify::detail::uninitialized_array<known> answers(c.mesh.triangles.size(), insonify::detail::memory_of(ex));
         // Triangles that other casters may shade are left to the test of points.
         std::vector<std::pair<glm::dvec2, glm::dvec2>> shared;
         const detail::tiled_plane& plane = planes_.front();
@@ -117,7 +117,7 @@ class exact_occlusion {
         const detail::points_by_tile sorted(planes_, at, into, ex);
         bulk_ranges(ex, planes_.tile_count(), 4, [&](std::size_t first, std::size_t last) {
             detail::receiver_cells cells;
-            insonify::detail::uninitialized_vector<detail::receiver> own;
+            insonify::detail::uninitialized_array<detail::receiver> own;
             for (std::size_t tile = first; tile < last; ++tile) {
                 sorted.collect(tile, own);
                 if (!own.empty()) test_tile(tile, own, cells, at, into);

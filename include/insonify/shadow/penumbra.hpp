@@ -39,8 +39,8 @@ class penumbra_occlusion {
     /// See occlusion.
     void test(const points& at, const results& into) const {
         lights_.front().blocked.test(at, into);
-        insonify::detail::uninitialized_vector<float> lit(at.size());
-        insonify::detail::uninitialized_vector<std::uint32_t> blocking(at.size());
+        insonify::detail::uninitialized_array<float> lit(at.size());
+        insonify::detail::uninitialized_array<std::uint32_t> blocking(at.size());
         const results one{lit, blocking};
         for (std::size_t i = 1; i < lights_.size(); ++i) {
             lights_[i].blocked.test(at, one);
@@ -55,8 +55,8 @@ class penumbra_occlusion {
         lights_.front().blocked.test(at, into, ex);
         std::size_t count = 0;
         for (const points& some : at) count += some.size();
-        insonify::detail::uninitialized_vector<float> lit(count);
-        insonify::detail::uninitialized_vector<std::uint32_t> blocking(count);
+        insonify::detail::uninitialized_array<float> lit(count);
+        insonify::detail::uninitialized_array<std::uint32_t> blocking(count);
         std::vector<results> one;
         count = 0;
         for (const points& some : at) {

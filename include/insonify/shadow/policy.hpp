@@ -163,7 +163,7 @@ enum class known : std::uint8_t { lit, dark, nothing };
 template <class S>
 concept triangle_occlusion = collective_occlusion<S> &&
     requires(const S& structure, std::uint32_t caster, const glm::dvec3& eye, serial_executor& ex) {
-    { structure.known_triangles(caster, eye, ex) } -> std::same_as<insonify::detail::uninitialized_vector<known>>;
+    { structure.known_triangles(caster, eye, ex) } -> std::same_as<insonify::detail::uninitialized_array<known>>;
 };
 
 }  // namespace shadow

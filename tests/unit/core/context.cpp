@@ -15,7 +15,7 @@
 
 namespace in = insonify;
 using in::detail::block_pool, in::detail::memory_of, in::detail::uninitialized;
-using floats = in::detail::uninitialized_vector<float>;
+using floats = in::detail::uninitialized_array<float>;
 
 static_assert(in::executor<in::context> && in::executor<const in::context>);
 static_assert(!std::is_copy_constructible_v<in::context>);

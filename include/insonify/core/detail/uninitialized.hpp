@@ -1,15 +1,15 @@
-// Vectors whose elements start uninitialized, for storage that is overwritten at once. Large ones may draw on a
+// Arrays whose elements start uninitialized, for storage that is overwritten at once. Large ones may draw on a
 // context's memory.
 #pragma once
 
 #include <insonify/core/detail/block_pool.hpp>
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <new>
-#include <type_traits>
 #include <utility>
-#include <vector>
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
@@ -18,55 +18,116 @@ namespace detail {
 /// Constructor tag: elements are left uninitialized.
 struct uninitialized {};
 
-/// Allocates blocks of 64 KB and more from a pool, all others from the heap; `construct` without arguments leaves
-/// scalars uninitialized.
-template <class T>
-class uninitialized_allocator {
+/// Raw memory: of a pool if one is given and at least 64 KB are wanted, else of the heap.
+class memory_block {
   public:
-    using value_type = T;
-    using propagate_on_container_move_assignment = std::true_type;
-    using propagate_on_container_swap = std::true_type;
-
-    uninitialized_allocator() = default;
-    uninitialized_allocator(const shared_pool& pool) : pool_(pool) {}
-    template <class U>
-    INSONIFY_MEMBER uninitialized_allocator(const uninitialized_allocator<U>& other) : pool_(other.pool()) {}
-
-    INSONIFY_TAGGED T* allocate(std::size_t count) {
-        return pooled(count) ? static_cast<T*>(pool_->allocate(count * sizeof(T)))
-                             : std::allocator<T>().allocate(count);
+    memory_block() = default;
+    explicit memory_block(const shared_pool& pool) : pool_(pool) {}
+    /// @throws std::bad_alloc
+    INSONIFY_TAGGED memory_block(std::size_t bytes, const shared_pool& pool) : pool_(pool), bytes_(bytes) {
+        if (bytes_ == 0) return;
+        start_ =
+            is_pooled() ? pool_->allocate(bytes_) : ::operator new (bytes_, std::align_val_t{block_pool::alignment});
     }
-    INSONIFY_TAGGED void deallocate(T* memory, std::size_t count) noexcept {
-        pooled(count) ? pool_->deallocate(memory, count * sizeof(T)) : std::allocator<T>().deallocate(memory, count);
+    INSONIFY_MEMBER memory_block(memory_block&& other) noexcept { swap(other); }
+    INSONIFY_MEMBER memory_block& operator=(memory_block&& other) noexcept {
+        memory_block(std::move(other)).swap(*this);
+        return *this;
+    }
+    INSONIFY_TAGGED ~memory_block() {
+        if (start_ == nullptr) return;
+        if (is_pooled())
+            pool_->deallocate(start_, bytes_);
+        else
+            ::operator delete (start_, std::align_val_t{block_pool::alignment});
+    }
+    INSONIFY_MEMBER void swap(memory_block& other) noexcept {
+        std::swap(start_, other.start_);
+        std::swap(bytes_, other.bytes_);
+        pool_.swap(other.pool_);
     }
 
-    template <class U>
-    INSONIFY_MEMBER void construct(U* at) {
-        ::new (static_cast<void*>(at)) U;
-    }
-    template <class U, class... From>
-    INSONIFY_MEMBER void construct(U* at, From&&... from) {
-        std::construct_at(at, std::forward<From>(from)...);
-    }
-
-    /// Copies of a vector allocate from the heap.
-    uninitialized_allocator select_on_container_copy_construction() const { return {}; }
-
+    void* start() const { return start_; }
+    std::size_t bytes() const { return bytes_; }
     const shared_pool& pool() const { return pool_; }
-    friend bool operator==(const uninitialized_allocator& a, const uninitialized_allocator& b) {
-        return a.pool_ == b.pool_;
+
+  private:
+    INSONIFY_MEMBER bool is_pooled() const { return pool_ && bytes_ >= block_pool::min_bytes; }
+
+    shared_pool pool_;
+    void* start_ = nullptr;
+    std::size_t bytes_ = 0;
+};
+
+/// An array whose elements are left uninitialized unless they have a constructor. Much less to compile than a vector
+/// with an allocator.
+template <class T>
+class uninitialized_array {
+  public:
+    uninitialized_array() = default;
+    INSONIFY_MEMBER explicit uninitialized_array(const shared_pool& pool) : memory_(pool) {}
+    INSONIFY_MEMBER explicit uninitialized_array(std::size_t count, const shared_pool& pool = {})
+        : uninitialized_array(pool) {
+        resize(count);
+    }
+    INSONIFY_TAGGED uninitialized_array(std::size_t count, const T& value) : uninitialized_array(count) {
+        std::fill_n(data(), count, value);
+    }
+    /// Copies allocate from the heap.
+    INSONIFY_TAGGED uninitialized_array(const uninitialized_array& other) : uninitialized_array(other.size_) {
+        std::copy_n(other.data(), size_, data());
+    }
+    INSONIFY_MEMBER uninitialized_array(uninitialized_array&& other) noexcept { swap(other); }
+    /// If allocation fails, the array is unchanged.
+    INSONIFY_TAGGED uninitialized_array& operator=(const uninitialized_array& other) {
+        if (this != &other) *this = uninitialized_array(other);
+        return *this;
+    }
+    INSONIFY_MEMBER uninitialized_array& operator=(uninitialized_array&& other) noexcept {
+        uninitialized_array(std::move(other)).swap(*this);
+        return *this;
+    }
+    INSONIFY_MEMBER ~uninitialized_array() { std::destroy_n(data(), size_); }
+
+    /// Discards all elements, for others.
+    /// @throws std::bad_alloc
+    INSONIFY_TAGGED void resize(std::size_t count) {
+        // No machine has the bytes of the largest count, so that it fails as other large ones do.
+        constexpr std::size_t largest = PTRDIFF_MAX / sizeof(T);
+        const std::size_t bytes = (std::min)(count, largest) * sizeof(T);
+        std::destroy_n(data(), size_);
+        size_ = 0;
+        if (bytes > memory_.bytes()) memory_ = memory_block(bytes, memory_.pool());
+        std::uninitialized_default_construct_n(data(), count);
+        size_ = count;
+    }
+
+    INSONIFY_MEMBER T* data() { return static_cast<T*>(memory_.start()); }
+    INSONIFY_MEMBER const T* data() const { return static_cast<const T*>(memory_.start()); }
+    INSONIFY_MEMBER std::size_t size() const { return size_; }
+    INSONIFY_MEMBER bool empty() const { return size_ == 0; }
+    INSONIFY_MEMBER T* begin() { return data(); }
+    INSONIFY_MEMBER T* end() { return data() + size_; }
+    INSONIFY_MEMBER const T* begin() const { return data(); }
+    INSONIFY_MEMBER const T* end() const { return data() + size_; }
+    INSONIFY_MEMBER T& operator[](std::size_t i) { return data()[i]; }
+    INSONIFY_MEMBER const T& operator[](std::size_t i) const { return data()[i]; }
+
+    INSONIFY_TAGGED friend bool operator==(const uninitialized_array& a, const uninitialized_array& b) {
+        return a.size_ == b.size_ && std::equal(a.begin(), a.end(), b.begin());
     }
 
   private:
     static_assert(alignof(T) <= block_pool::alignment);
 
-    INSONIFY_MEMBER bool pooled(std::size_t count) const { return pool_ && count >= block_pool::min_bytes / sizeof(T); }
+    INSONIFY_MEMBER void swap(uninitialized_array& other) noexcept {
+        memory_.swap(other.memory_);
+        std::swap(size_, other.size_);
+    }
 
-    shared_pool pool_;
+    memory_block memory_;
+    std::size_t size_ = 0;
 };
-
-template <class T>
-using uninitialized_vector = std::vector<T, uninitialized_allocator<T>>;
 
 }  // namespace detail
 }  // namespace INSONIFY_ABI

@@ -3,10 +3,10 @@
 // Based on: Guy M. Morton. A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing. IBM, 1966.
 #pragma once
 
+#include <insonify/core/detail/radix_sort.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/geometry/bounds.hpp>
 
-#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -45,7 +45,7 @@ inline std::uint64_t every_third_bit(std::uint64_t value) {
 /// Sorts triangles along Morton's curve through their centres, and vertices by the first triangle that uses them.
 inline void order_along_curve(mesh& m, const bounding_box& box) {
     const glm::dvec3 size = box.size();
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> order(m.triangles.size());
+    std::vector<keyed> order(m.triangles.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
         std::uint64_t key = 0;
         for (int axis = 0; axis < 3; ++axis) {
@@ -57,7 +57,7 @@ inline void order_along_curve(mesh& m, const bounding_box& box) {
         }
         order[i] = {key, static_cast<std::uint32_t>(i)};
     }
-    std::sort(order.begin(), order.end());
+    radix_sort(order);
 
     constexpr std::uint32_t unused = 0xFFFFFFFFu;
     std::vector<std::uint32_t> number(m.positions.size(), unused);
@@ -70,8 +70,8 @@ inline void order_along_curve(mesh& m, const bounding_box& box) {
         sorted.positions.push_back(m.positions[v]);
         if (!m.normals.empty()) sorted.normals.push_back(m.normals[v]);
     };
-    for (const auto& [key, i] : order) {
-        glm::uvec3 t = m.triangles[i];
+    for (const keyed& item : order) {
+        glm::uvec3 t = m.triangles[item.number];
         for (int k = 0; k < 3; ++k) {
             if (number[t[k]] == unused) add_vertex(t[k]);
             t[k] = number[t[k]];

@@ -178,7 +178,7 @@ class tile_bins {
             for (std::size_t tile = 0; tile < tiles; ++tile)
                 next[tile] += std::exchange(of_chunk(chunk)[tile], next[tile]);
 
-        runs_ = uninitialized_vector<triangle_run>(first_.back(), memory_of(ex));
+        runs_ = uninitialized_array<triangle_run>(first_.back(), memory_of(ex));
         ex.bulk(chunks.size(), [&](std::size_t chunk) {
             chunks[chunk].for_each(
                 grid, [&](std::size_t tile, const triangle_run& run) { runs_[of_chunk(chunk)[tile]++] = run; });
@@ -191,7 +191,7 @@ class tile_bins {
 
   private:
     std::vector<std::uint32_t> first_;
-    uninitialized_vector<triangle_run> runs_;
+    uninitialized_array<triangle_run> runs_;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS

@@ -34,8 +34,8 @@ struct packed_vertex<double> {
 /// compact are marked as off the grid.
 template <class Real>
 struct screen_vertices {
-    uninitialized_vector<packed_vertex<Real>> packed;
-    uninitialized_vector<double> inverse_w;  ///< empty if no weights in double are needed
+    uninitialized_array<packed_vertex<Real>> packed;
+    uninitialized_array<double> inverse_w;  ///< empty if no weights in double are needed
 
     screen_vertices(std::size_t count, bool has_inverse_w, const shared_pool& memory)
         : packed(count, memory), inverse_w(has_inverse_w ? count : 0, memory) {}

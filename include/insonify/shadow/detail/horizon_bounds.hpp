@@ -136,7 +136,7 @@ class horizon_bounds {
         margin_ = 0x1p-21 * size + 4 * off_ * (2 + relief);
         first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
         strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;
-        bounds_ = insonify::detail::uninitialized_vector<float>(
+        bounds_ = insonify::detail::uninitialized_array<float>(
             2 * static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(strips_),
             insonify::detail::memory_of(ex));
         bulk_ranges(ex, static_cast<std::size_t>(strips_), 64, [&](std::size_t from, std::size_t to) {
@@ -182,7 +182,7 @@ class horizon_bounds {
     grid_heights heights_;
     double off_, margin_ = 0;
     int first_strip_ = 0, strips_ = 0;
-    insonify::detail::uninitialized_vector<float> bounds_;
+    insonify::detail::uninitialized_array<float> bounds_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS

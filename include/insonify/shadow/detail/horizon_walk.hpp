@@ -22,7 +22,7 @@ class block_heights {
     template <executor E>
     block_heights(const lit_grid& grid, const grid_heights& heights, isa level, E& ex)
         : columns_((grid.columns - 2) / side + 1), rows_((grid.rows - 2) / side + 1) {
-        highest_ = insonify::detail::uninitialized_vector<float>(
+        highest_ = insonify::detail::uninitialized_array<float>(
             static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), insonify::detail::memory_of(ex));
         bulk_ranges(ex, static_cast<std::size_t>(columns_), 4, [&](std::size_t from, std::size_t to) {
             std::vector<float> row(static_cast<std::size_t>(grid.rows));
@@ -79,7 +79,7 @@ class block_heights {
     };
 
     int columns_, rows_;
-    insonify::detail::uninitialized_vector<float> highest_;
+    insonify::detail::uninitialized_array<float> highest_;
 };
 
 /// The walk along one ray.

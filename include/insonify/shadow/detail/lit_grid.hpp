@@ -94,7 +94,7 @@ struct grid_heights {
     static constexpr int around = 4;  ///< rows of padding on either side
 
     int pitch = 0;
-    insonify::detail::uninitialized_vector<float> u;
+    insonify::detail::uninitialized_array<float> u;
     float least = 0, greatest = 0;  ///< z
 
     template <executor E>

@@ -228,7 +228,7 @@ class plane_caster {
 
   private:
     std::span<const glm::uvec3> triangles_;
-    insonify::detail::uninitialized_vector<plane_vertex> vertices_;
+    insonify::detail::uninitialized_array<plane_vertex> vertices_;
     insonify::detail::tile_bins bins_;
 };
 

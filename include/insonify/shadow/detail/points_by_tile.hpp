@@ -39,7 +39,7 @@ class points_by_tile {
     }
 
     /// Replaces `own` by the points of a tile.
-    void collect(std::size_t tile, insonify::detail::uninitialized_vector<receiver>& own) const {
+    void collect(std::size_t tile, insonify::detail::uninitialized_array<receiver>& own) const {
         std::size_t size = 0;
         for (const run& r : runs_) size += r.of(sorted_, tile).size();
         own.resize(size);
@@ -51,7 +51,7 @@ class points_by_tile {
     }
 
   private:
-    using receivers_of = insonify::detail::uninitialized_vector<receiver>;
+    using receivers_of = insonify::detail::uninitialized_array<receiver>;
     /// A run of batches.
     struct run {
         std::size_t first = 0;              ///< of its points among all
@@ -74,7 +74,7 @@ class points_by_tile {
         const std::size_t tiles = planes_.tile_count();
         if (tiles == 0) return;
         receivers_of found(total, memory);
-        insonify::detail::uninitialized_vector<std::uint32_t> keys(total, memory);
+        insonify::detail::uninitialized_array<std::uint32_t> keys(total, memory);
         out.starts.assign(tiles + 1, 0);
         for (std::size_t batch = first; batch < last; ++batch) {
             const points& some = at[batch];

@@ -162,8 +162,8 @@ class overhead_painter {
 
     /// Decides whole triangles before they are drawn, lit or dark. The surfaces point to the results.
     template <class Occlusion, executor E>
-    std::vector<uninitialized_vector<shadow::known>> settle_triangles(const Occlusion& occlusion, E& ex) {
-        std::vector<uninitialized_vector<shadow::known>> known;
+    std::vector<uninitialized_array<shadow::known>> settle_triangles(const Occlusion& occlusion, E& ex) {
+        std::vector<uninitialized_array<shadow::known>> known;
         if constexpr (shadow::triangle_occlusion<Occlusion>)
             for (surface& s : surfaces_) {
                 // A mesh much finer than the picture has more triangles than points to test.

@@ -40,8 +40,8 @@ inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh
 
 /// Memory for the results of points.
 struct light_arrays {
-    uninitialized_vector<float> lit;
-    uninitialized_vector<std::uint32_t> caster;
+    uninitialized_array<float> lit;
+    uninitialized_array<std::uint32_t> caster;
 
     explicit light_arrays(std::size_t points, const shared_pool& memory = {})
         : lit(points, memory), caster(points, memory) {}

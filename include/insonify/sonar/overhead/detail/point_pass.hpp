@@ -22,9 +22,9 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// Points that pixels show, as arrays of equal length.
 struct point_batch {
-    uninitialized_vector<double> x, y, z;
-    uninitialized_vector<std::uint32_t> mesh, triangle;
-    uninitialized_vector<std::uint32_t> pixel;  ///< of the picture
+    uninitialized_array<double> x, y, z;
+    uninitialized_array<std::uint32_t> mesh, triangle;
+    uninitialized_array<std::uint32_t> pixel;  ///< of the picture
 
     explicit point_batch(std::size_t count, const shared_pool& memory = {})
         : x(count, memory),

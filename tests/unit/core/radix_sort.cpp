@@ -1,0 +1,36 @@
+// Radix sort against std::stable_sort, for keys of 32 and 64 bits.
+#include <insonify/core/detail/radix_sort.hpp>
+#include <insonify/core/random.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+using in::detail::keyed;
+
+TEST_CASE("radix_sort() orders by key and keeps the order of equal ones, as a stable sort does") {
+    // Shorter and longer than the limit of insertion; keys of few values, of few digits, and any.
+    const std::uint32_t size = GENERATE(0u, 1u, 2u, 63u, 64u, 65u, 5000u);
+    const std::uint64_t mask = GENERATE(0x3u, 0xFFFF00000000u, 0x700000000007u, ~std::uint64_t{0});
+    INFO(size << " items, keys within " << mask);
+    in::random_sequence random(1, size, mask);
+    std::vector<keyed> items;
+    std::vector<std::uint32_t> words;
+    for (std::uint32_t i = 0; i < size; ++i) {
+        items.push_back({(std::uint64_t{random.word()} << 32 | random.word()) & mask, i});
+        words.push_back(random.word() & static_cast<std::uint32_t>(mask));
+    }
+    std::vector<keyed> expected = items;
+    std::stable_sort(expected.begin(), expected.end(), [](const keyed& a, const keyed& b) { return a.key < b.key; });
+    in::detail::radix_sort(items);
+    const auto same = [](const keyed& a, const keyed& b) { return a.key == b.key && a.number == b.number; };
+    CHECK(std::equal(items.begin(), items.end(), expected.begin(), expected.end(), same));
+
+    std::vector<std::uint32_t> sorted = words;
+    std::sort(sorted.begin(), sorted.end());
+    in::detail::radix_sort(words);
+    CHECK(words == sorted);
+}
