@@ -255,7 +255,7 @@ inline namespace INSONIFY_ABI {}
 // Pool of large memory blocks: what one frame frees serves the next, without the cost of fresh pages.
 //
 // The operating system maps and clears every page that it hands out, which takes up to half the time of a frame of
-// 2048 x 2048 pixels. A pool keeps freed blocks instead. It belongs to a `context`; the vectors that allocate from it
+// 2048 x 2048 pixels. A pool keeps freed blocks instead. It belongs to a `context`; the arrays that allocate from it
 // share it, so that images outlive their context.
 
 #include <algorithm>
@@ -708,8 +708,8 @@ struct uninitialized {};
 /// Raw memory: of a pool if one is given and at least 64 KB are wanted, else of the heap.
 class memory_block {
   public:
-    memory_block() = default;
-    explicit memory_block(const shared_pool& pool) : pool_(pool) {}
+    INSONIFY_MEMBER memory_block() noexcept {}
+    INSONIFY_MEMBER explicit memory_block(const shared_pool& pool) : pool_(pool) {}
     /// @throws std::bad_alloc
     INSONIFY_TAGGED memory_block(std::size_t bytes, const shared_pool& pool) : pool_(pool), bytes_(bytes) {
         if (bytes_ == 0) return;
@@ -751,7 +751,7 @@ class memory_block {
 template <class T>
 class uninitialized_array {
   public:
-    uninitialized_array() = default;
+    INSONIFY_MEMBER uninitialized_array() noexcept {}
     INSONIFY_MEMBER explicit uninitialized_array(const shared_pool& pool) : memory_(pool) {}
     INSONIFY_MEMBER explicit uninitialized_array(std::size_t count, const shared_pool& pool = {})
         : uninitialized_array(pool) {

@@ -1,7 +1,7 @@
 // Pool of large memory blocks: what one frame frees serves the next, without the cost of fresh pages.
 //
 // The operating system maps and clears every page that it hands out, which takes up to half the time of a frame of
-// 2048 x 2048 pixels. A pool keeps freed blocks instead. It belongs to a `context`; the vectors that allocate from it
+// 2048 x 2048 pixels. A pool keeps freed blocks instead. It belongs to a `context`; the arrays that allocate from it
 // share it, so that images outlive their context.
 #pragma once
 

@@ -21,8 +21,8 @@ struct uninitialized {};
 /// Raw memory: of a pool if one is given and at least 64 KB are wanted, else of the heap.
 class memory_block {
   public:
-    memory_block() = default;
-    explicit memory_block(const shared_pool& pool) : pool_(pool) {}
+    INSONIFY_MEMBER memory_block() noexcept {}
+    INSONIFY_MEMBER explicit memory_block(const shared_pool& pool) : pool_(pool) {}
     /// @throws std::bad_alloc
     INSONIFY_TAGGED memory_block(std::size_t bytes, const shared_pool& pool) : pool_(pool), bytes_(bytes) {
         if (bytes_ == 0) return;
@@ -64,7 +64,7 @@ class memory_block {
 template <class T>
 class uninitialized_array {
   public:
-    uninitialized_array() = default;
+    INSONIFY_MEMBER uninitialized_array() noexcept {}
     INSONIFY_MEMBER explicit uninitialized_array(const shared_pool& pool) : memory_(pool) {}
     INSONIFY_MEMBER explicit uninitialized_array(std::size_t count, const shared_pool& pool = {})
         : uninitialized_array(pool) {
