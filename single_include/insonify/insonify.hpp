@@ -530,8 +530,7 @@ inline std::string quoted(std::string_view word) {
 
 [[noreturn]] inline void refuse_text(std::string_view argument, std::string_view value, std::string_view expected) {
     std::string message(argument);
-    for (const std::string_view part : {std::string_view(" is "), value, std::string_view(", expected "), expected})
-        message += part;
+    message.append(" is ").append(value).append(", expected ").append(expected);
     raise(invalid_input(message));
 }
 template <arithmetic Number>
@@ -4229,7 +4228,7 @@ constexpr std::uint64_t key_of(const keyed& item) {
     return item.key;
 }
 
-/// Sorts items, fewer than 2^32, by their key_of. The order of equal ones is kept.
+/// Sorts items by their key_of. The order of equal ones is kept.
 template <class Item>
 void radix_sort(std::vector<Item>& items) {
     if (items.size() < 64) {  // shorter than the counts: insertion
@@ -4245,15 +4244,16 @@ void radix_sort(std::vector<Item>& items) {
     const auto digit_of = [](const Item& item, std::size_t digit) {
         return static_cast<std::size_t>(key_of(item) >> (11 * digit)) % values;
     };
-    std::array<std::array<std::uint32_t, values>, digits> starts{};
+    std::vector<std::size_t> counts(digits * values);
     for (const Item& item : items)
-        for (std::size_t digit = 0; digit < digits; ++digit) ++starts[digit][digit_of(item, digit)];
+        for (std::size_t digit = 0; digit < digits; ++digit) ++counts[digit * values + digit_of(item, digit)];
     std::vector<Item> sorted(items.size());
     for (std::size_t digit = 0; digit < digits; ++digit) {
-        if (starts[digit][digit_of(items.front(), digit)] == items.size()) continue;  // all have this digit
-        std::uint32_t start = 0;
-        for (std::uint32_t& entry : starts[digit]) start += std::exchange(entry, start);
-        for (const Item& item : items) sorted[starts[digit][digit_of(item, digit)]++] = item;
+        std::size_t* const starts = &counts[digit * values];
+        if (starts[digit_of(items.front(), digit)] == items.size()) continue;  // all have this digit
+        std::size_t start = 0;
+        for (std::size_t value = 0; value < values; ++value) start += std::exchange(starts[value], start);
+        for (const Item& item : items) sorted[starts[digit_of(item, digit)]++] = item;
         items.swap(sorted);
     }
 }
@@ -25047,9 +25047,7 @@ class recorder {
                 const bool is_target = bin.target > bin.bottom;
                 const bool is_dark = bin.dark_by_target + bin.dark_by_seabed > bin.lit;
                 instance[b] = is_target ? bin.instance : labels::no_instance;
-                shadow[b] = is_target || !is_dark                      ? labels::is_lit
-                            : bin.dark_by_target >= bin.dark_by_seabed ? bin.caster
-                                                                       : labels::by_seabed;
+                shadow[b] = is_target || !is_dark ? labels::is_lit : bin.caster;
                 seabed[b] = is_target ? labels::no_seabed : bin.seabed;
             }
         }

@@ -64,8 +64,7 @@ inline std::string quoted(std::string_view word) {
 
 [[noreturn]] inline void refuse_text(std::string_view argument, std::string_view value, std::string_view expected) {
     std::string message(argument);
-    for (const std::string_view part : {std::string_view(" is "), value, std::string_view(", expected "), expected})
-        message += part;
+    message.append(" is ").append(value).append(", expected ").append(expected);
     raise(invalid_input(message));
 }
 template <arithmetic Number>

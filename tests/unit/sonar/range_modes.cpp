@@ -2,7 +2,9 @@
 // order of rows. Energies are those of closed forms.
 #include <insonify/insonify.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "../../catch.hpp"
 
@@ -75,6 +77,53 @@ TEST_CASE("A bin's shadow is labelled with the target that shades most of it") {
     const auto heard = in::render(s, one_ping(5, 30, 60), cross_sections);
     CHECK(heard.labels.shadow(24, 0) == 1);
     CHECK(heard.labels.shadow(25, 0) == 2);
+}
+
+TEST_CASE("A bin's shadow is labelled with the seabed where it shades more than a target does") {
+    // A ridge 1 m high at x = 8 shades the bottom up to 10; a plate that floats at x = 5 shades some of what is around
+    // it.
+    struct ridge {
+        in::seabed::type kind = in::seabed::type::mud;
+        void row(const in::seabed::scanline& line, std::span<float> heights) const {
+            for (std::size_t i = 0; i < heights.size(); ++i)
+                heights[i] = static_cast<float>(std::max(0.0, 1 - 20 * std::abs(line.x(i) - 8)));
+        }
+        in::seabed::height_range range() const { return {0, 1}; }
+    };
+    const auto label_of_bin = [](double from, double to) {
+        const auto height = [](double end) { return static_cast<float>(5 * (1 - 5 / end)); };
+        in::scene s;
+        s.seabed = ridge{};
+        s.add(plate(5, height(from), height(to)), {}, "plate");
+        const in::ground_range rig{.ping_spacing = 1, .pings = 1, .first_range = 0.5f, .range = 20.5f, .bins = 20};
+        auto options = cross_sections;
+        options.cell = 0.005;
+        return in::render(s, rig, options).labels.shadow(9, 0);  // from 9.5 to 10.5 m
+    };
+    CHECK(label_of_bin(10.2, 10.4) == in::labels::by_seabed);
+    CHECK(label_of_bin(9.7, 10.45) == 1);
+}
+
+TEST_CASE("A bin's seabed is the type that has most of it, whichever comes first") {
+    struct two_types {
+        double border;
+        void row(const in::seabed::scanline& line, std::span<float> heights, std::span<in::seabed::type> types) const {
+            std::fill(heights.begin(), heights.end(), 0.0f);
+            for (std::size_t i = 0; i < types.size(); ++i)
+                types[i] = line.x(i) < border ? in::seabed::type::mud : in::seabed::type::rock;
+        }
+        in::seabed::height_range range() const { return {0, 0}; }
+    };
+    const auto type_of_bin = [](double border) {
+        in::scene s;
+        s.seabed = two_types{border};
+        const in::ground_range rig{.ping_spacing = 1, .pings = 1, .range = 20, .bins = 20};
+        auto options = cross_sections;
+        options.cell = 0.01;
+        return in::render(s, rig, options).labels.seabed(10, 0);
+    };
+    CHECK(type_of_bin(10.3) == static_cast<std::uint8_t>(in::seabed::type::rock));
+    CHECK(type_of_bin(10.7) == static_cast<std::uint8_t>(in::seabed::type::mud));
 }
 
 TEST_CASE("Objects above the sonar return all of their energy, up to the zenith") {

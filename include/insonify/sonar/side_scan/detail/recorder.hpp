@@ -110,9 +110,7 @@ class recorder {
                 const bool is_target = bin.target > bin.bottom;
                 const bool is_dark = bin.dark_by_target + bin.dark_by_seabed > bin.lit;
                 instance[b] = is_target ? bin.instance : labels::no_instance;
-                shadow[b] = is_target || !is_dark                      ? labels::is_lit
-                            : bin.dark_by_target >= bin.dark_by_seabed ? bin.caster
-                                                                       : labels::by_seabed;
+                shadow[b] = is_target || !is_dark ? labels::is_lit : bin.caster;
                 seabed[b] = is_target ? labels::no_seabed : bin.seabed;
             }
         }
