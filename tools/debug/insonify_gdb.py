@@ -25,7 +25,8 @@ class Picture:
         if self.is_view:
             first, stride = self.value["data_"], int(self.value["stride_"])
         else:
-            first, stride = self.value["pixels_"]["_M_impl"]["_M_start"], self.width
+            pixel = self.value.type.strip_typedefs().template_argument(0)
+            first, stride = self.value["pixels_"]["memory_"]["start_"].cast(pixel.pointer()), self.width
         for y in range(self.height):
             for x in range(self.width):
                 yield f"({x}, {y})", (first + y * stride + x).dereference()
