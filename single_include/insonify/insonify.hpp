@@ -14265,48 +14265,39 @@ struct grid_heights {
 
     int pitch = 0;
     insonify::detail::uninitialized_array<float> u;
-    float least = 0, greatest = 0;  ///< z
+    double least = 0, greatest = 0;  ///< bounds of z
 
     template <executor E>
-    grid_heights(const mesh_view& m, const lit_grid& grid, E& ex)
+    grid_heights(const mesh_view& m, const bounding_box& bounds, const lit_grid& grid, E& ex)
         : pitch(grid.rows + 2 * around),
-          u(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(pitch), insonify::detail::memory_of(ex)) {
+          u(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(pitch), insonify::detail::memory_of(ex)),
+          least(bounds.lower.z),
+          greatest(bounds.upper.z) {
         // In square blocks, so that both reads and writes are contiguous.
-        constexpr int square = 32;
+        constexpr int square = 64;
         const auto drop = static_cast<float>(grid.drop);
-        const auto runs = static_cast<std::size_t>((grid.columns + square - 1) / square);
-        std::vector<glm::vec2> ranges(runs);
         bulk_ranges(ex, static_cast<std::size_t>(grid.columns), square, [&](std::size_t from, std::size_t to) {
             const auto left = static_cast<int>(from), right = static_cast<int>(to);
-            float low = std::numeric_limits<float>::infinity(), high = -low;
             for (int x = left; x < right; ++x) {
                 std::fill_n(column(x) - around, around, nothing);
                 std::fill_n(column(x) + grid.rows, around, nothing);
             }
-            const auto note = [&](int x, int y, float z) {
-                low = (std::min)(low, z);
-                high = (std::max)(high, z);
-                column(x)[y] = static_cast<float>(x) + drop * z;
-            };
             const glm::vec3* const first = m.positions.data() + grid.first;
+            const auto set = [&](int x, int y) {
+                column(x)[y] = static_cast<float>(x) + drop * first[x * grid.along + y * grid.across].z;
+            };
             for (int bottom = 0; bottom < grid.rows; bottom += square) {
                 const int top = (std::min)(bottom + square, grid.rows);
                 // Along the mesh's own rows.
                 if (grid.across == 1 || grid.across == -1) {
                     for (int x = left; x < right; ++x)
-                        for (int y = bottom; y < top; ++y) note(x, y, first[x * grid.along + y * grid.across].z);
+                        for (int y = bottom; y < top; ++y) set(x, y);
                 } else {
                     for (int y = bottom; y < top; ++y)
-                        for (int x = left; x < right; ++x) note(x, y, first[x * grid.along + y * grid.across].z);
+                        for (int x = left; x < right; ++x) set(x, y);
                 }
             }
-            ranges[from / square] = {low, high};
         });
-        least = ranges.front().x, greatest = ranges.front().y;
-        for (const glm::vec2& r : ranges) {
-            least = (std::min)(least, r.x);
-            greatest = (std::max)(greatest, r.y);
-        }
     }
     const float* column(int x) const { return u.data() + static_cast<std::ptrdiff_t>(x) * pitch + around; }
     float* column(int x) { return u.data() + static_cast<std::ptrdiff_t>(x) * pitch + around; }
@@ -14345,91 +14336,122 @@ struct horizon_bound {
     float lit_above;   ///< no ray of the strip meets a u above this
 };
 
-/// Computes the bounds of some strips.
+/// Computes the bounds of adjacent strips, column by column: neighbours read the same heights.
 struct horizon_kernel {
+    static constexpr int most = 64;  ///< strips
+
     const lit_grid& grid;
     const grid_heights& heights;
-    int first_strip;       ///< strips count from this
-    int from, to, strips;  ///< these, of so many
-    float margin;          ///< of u
-    float* bounds;         ///< by column: the lower bound of each strip, then the upper ones
+    int first_row;      ///< of the first strip, in column 0
+    int count, strips;  ///< of these, and of all: multiples of 16
+    float margin;       ///< of u
+    float* bounds;      ///< of the first strip; by column: the lower bound of each strip, then the upper ones
 
     template <int N>
     INSONIFY_INLINE void run() const {
-        for (int k = from; k < to; k += N) sweep<N>(k);
+        bounds_so_far now;
+        const auto slope = static_cast<float>(grid.slope);
+        float copies[2][static_cast<unsigned>(room)];
+        std::int32_t rises[static_cast<unsigned>(room)];
+        for (int x = 0; x < grid.columns; ++x) {
+            // The strips' first row where they cross the column: `row` to `row + 3` surround the first strip up to the
+            // next column.
+            const int row = first_row + static_cast<int>(grid.slope * x);
+            float* const of_column = bounds + static_cast<std::ptrdiff_t>(x) * 2 * strips;
+            if (row + count + 3 < 0 || row >= grid.rows) {
+                std::copy_n(now.dark_below, count, of_column);
+                std::copy_n(now.lit_above, count, of_column + strips);
+                continue;
+            }
+            const float* const here = heights_from(x, row, copies[0]);
+            const float* const ahead = heights_from(x + 1, row, copies[1]);
+            for (int k = 0; k < count + 2; k += N) find_rises<N>(rises + k, here + k, ahead + k, slope);
+            for (int k = 0; k < count; k += N) advance<N>(now, k, here + k, ahead + k, rises + k, of_column + k);
+        }
     }
 
   private:
+    static constexpr int room = most + 2 * 16;  ///< rows around the strips, in whole vectors
+
+    struct bounds_so_far {
+        float dark_below[static_cast<unsigned>(most)], lit_above[static_cast<unsigned>(most)];
+
+        bounds_so_far() {
+            std::fill_n(dark_below, most, grid_heights::nothing);
+            std::fill_n(lit_above, most, grid_heights::nothing);
+        }
+    };
+
+    /// The heights of a column from a row on, copied where they end.
+    const float* heights_from(int x, int row, float* copy) const {
+        const bool exists = x < grid.columns;
+        if (exists && row >= -grid_heights::around && row + room <= grid.rows + grid_heights::around)
+            return heights.column(x) + row;
+        std::fill_n(copy, room, grid_heights::nothing);
+        const int first = (std::max)(row, 0), last = (std::min)(row + room, grid.rows);
+        if (exists && first < last) std::copy_n(heights.column(x) + first, last - first, copy + (first - row));
+        return copy;
+    }
+
+    /// Masks of the cells between two columns along which u increases, or where there is no cell.
     template <int N>
-    INSONIFY_INLINE void sweep(int k) const {
+    INSONIFY_INLINE void find_rises(std::int32_t* into, const float* here, const float* ahead, float slope) const {
+        using namespace insonify::detail;
+        using ints = lanes<std::int32_t, N>;
+        lanes<float, N> a, b, c, d, lower, upper;  // (0,0) (1,0) (0,1) (1,1)
+        load(a, here), load(b, ahead), load(c, here + 1), load(d, ahead + 1);
+        if (grid.is_rising) {
+            lower = (b - a) + slope * (d - b);
+            upper = (d - c) + slope * (c - a);
+        } else {
+            lower = (b - a) + slope * (c - a);
+            upper = (d - c) + slope * (d - b);
+        }
+        // Cells outside of the grid do not shade.
+        const ints is_cell = ints(a > grid_heights::nothing) & ints(b > grid_heights::nothing) &
+                             ints(c > grid_heights::nothing) & ints(d > grid_heights::nothing);
+        const ints up = ints(lower > margin) & ints(upper > margin);
+        store(into, ints(up | ints(is_cell == 0)));
+    }
+
+    /// Takes N strips from one column to the next.
+    /// @param of_column  where their bounds go
+    template <int N>
+    INSONIFY_INLINE void advance(bounds_so_far& now, int k, const float* here, const float* ahead,
+                                 const std::int32_t* rises_of, float* of_column) const {
         using namespace insonify::detail;
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
-        const auto slope = static_cast<float>(grid.slope);
-        floats dark_below = floats{} + grid_heights::nothing, lit_above = dark_below;
-        ints was_rising = ints{} - 1;
-        for (int x = 0; x < grid.columns; ++x) {
-            // The strip's rows where it crosses the column, and up to the next one: `row` to `row + 3` surround it.
-            const int row = first_strip + k + static_cast<int>(grid.slope * x);
-            floats here[4] = {}, ahead[4] = {};
-            read<N>(here, x, row);
-            if (x + 1 < grid.columns)
-                read<N>(ahead, x + 1, row);
-            else
-                for (floats& value : ahead) value = floats{} + grid_heights::nothing;
-            floats lowest = here[0], highest = here[0];
-            unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
-                if (i < 2) lowest = here[i + 1] < lowest ? here[i + 1] : lowest;
-                highest = here[i + 1] > highest ? here[i + 1] : highest;
-            });
-            // Every ray of the strip meets the column between rows `row` and `row + 2`.
-            dark_below = lowest > dark_below ? lowest : dark_below;
-            // The columns before count unless u increases all along them.
-            lit_above = was_rising ? lit_above : floats(highest > lit_above ? highest : lit_above);
-            ints rises = ints{} - 1;
-            unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
-                const floats &a = here[i], &b = ahead[i], &c = here[i + 1],
-                             &d = ahead[i + 1];  // (0,0) (1,0) (0,1) (1,1)
-                floats lower, upper;
-                if (grid.is_rising) {
-                    lower = (b - a) + slope * (d - b);
-                    upper = (d - c) + slope * (c - a);
-                } else {
-                    lower = (b - a) + slope * (c - a);
-                    upper = (d - c) + slope * (d - b);
-                }
-                // Cells outside of the grid do not shade.
-                const ints is_cell = ints(a > grid_heights::nothing) & ints(b > grid_heights::nothing) &
-                                     ints(c > grid_heights::nothing) & ints(d > grid_heights::nothing);
-                const ints up = ints(lower > margin) & ints(upper > margin);
-                rises = rises & ints(up | ints(is_cell == 0));
-            });
-            // Where u does not increase, these cells may shade points in them and after.
-            floats next = highest;
-            unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { next = ahead[i] > next ? ahead[i] : next; });
-            lit_above = rises ? lit_above : floats(next > lit_above ? next : lit_above);
-            floats stored = rises ? lit_above : floats{} + std::numeric_limits<float>::infinity();
-            float* const of_column = bounds + static_cast<std::ptrdiff_t>(x) * 2 * strips + k;
-            store(of_column, dark_below);
-            store(of_column + strips, stored);
-            was_rising = rises;
-        }
-    }
-    template <int N>
-    INSONIFY_INLINE void read(insonify::detail::lanes<float, N> (&into)[4], int x, int row) const {
-        using namespace insonify::detail;
-        // Strips beside the grid read the padding value.
-        const float* const column = heights.column(x);
-        const int low = -grid_heights::around, high = grid.rows + grid_heights::around - 4;
-        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA {
-            if (row + i >= low && row + i + N <= high + 4)
-                load(into[i], column + row + i);
-            else
-                gather<N>(into[i], [&](int lane) {
-                    const int at = row + i + lane;
-                    return at >= 0 && at < grid.rows ? column[at] : grid_heights::nothing;
-                });
+        floats dark_below, lit_above, lowest, highest, next;
+        ints rises;
+        load(dark_below, now.dark_below + k), load(lit_above, now.lit_above + k);
+        load(lowest, here), load(rises, rises_of);
+        highest = lowest;
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+            floats other;
+            load(other, here + i + 1);
+            if (i < 2) lowest = other < lowest ? other : lowest;
+            highest = other > highest ? other : highest;
         });
+        unroll<2>([&](int i) INSONIFY_INLINE_LAMBDA {
+            ints other;
+            load(other, rises_of + i + 1);
+            rises = rises & other;
+        });
+        // Every ray of the strip meets the column between rows `row` and `row + 2`.
+        dark_below = lowest > dark_below ? lowest : dark_below;
+        // Where u does not increase, these cells may shade points in them and after, on the next column too.
+        next = highest;
+        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA {
+            floats other;
+            load(other, ahead + i);
+            next = other > next ? other : next;
+        });
+        lit_above = rises ? lit_above : floats(next > lit_above ? next : lit_above);
+        const floats stored = rises ? lit_above : floats{} + std::numeric_limits<float>::infinity();
+        store(of_column, dark_below);
+        store(of_column + strips, stored);
+        store(now.dark_below + k, dark_below), store(now.lit_above + k, lit_above);
     }
 };
 
@@ -14437,11 +14459,13 @@ struct horizon_kernel {
 class horizon_bounds {
   public:
     /// @param m       the mesh, on the lattice
+    /// @param box     around it
     /// @param travel  direction in which light travels, in the mesh's frame; downwards
     template <executor E>
-    horizon_bounds(const mesh_view& m, const regular_grid& lattice, const glm::dvec3& travel, isa level, E& ex)
-        : grid_(lattice, travel), heights_(m, grid_, ex), off_(lattice.off) {
-        const auto greatest = static_cast<double>(heights_.greatest), least = static_cast<double>(heights_.least);
+    horizon_bounds(const mesh_view& m, const bounding_box& box, const regular_grid& lattice, const glm::dvec3& travel,
+                   isa level, E& ex)
+        : grid_(lattice, travel), heights_(m, box, grid_, ex), off_(lattice.off) {
+        const double greatest = heights_.greatest, least = heights_.least;
         const double relief = grid_.drop * (greatest - least);
         const double size = grid_.columns + grid_.drop * (std::max)(numeric::abs(greatest), numeric::abs(least));
         margin_ = 0x1p-21 * size + 4 * off_ * (2 + relief);
@@ -14450,10 +14474,10 @@ class horizon_bounds {
         bounds_ = insonify::detail::uninitialized_array<float>(
             2 * static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(strips_),
             insonify::detail::memory_of(ex));
-        bulk_ranges(ex, static_cast<std::size_t>(strips_), 64, [&](std::size_t from, std::size_t to) {
+        bulk_ranges(ex, static_cast<std::size_t>(strips_), horizon_kernel::most, [&](std::size_t from, std::size_t to) {
             insonify::detail::dispatch(
-                horizon_kernel{grid_, heights_, first_strip_, static_cast<int>(from), static_cast<int>(to), strips_,
-                               static_cast<float>(margin_), bounds_.data()},
+                horizon_kernel{grid_, heights_, first_strip_ + static_cast<int>(from), static_cast<int>(to - from),
+                               strips_, static_cast<float>(margin_), bounds_.data() + from},
                 level);
         });
     }
@@ -14647,8 +14671,7 @@ class horizon_triangles {
         eye_ = grid_.steps(glm::dvec2(eye));
         eye_u_ = eye_.x + grid_.drop * eye.z;
         // The sine is u's slope along the light, times the light's own sine, over the length of the facet's normal.
-        const double relief =
-            static_cast<double>(horizon.heights().greatest) - static_cast<double>(horizon.heights().least);
+        const double relief = horizon.heights().greatest - horizon.heights().least;
         const auto square_of = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
         const double steps_a_metre = numeric::square_root((std::max)(square_of(grid_.x_of), square_of(grid_.y_of)));
         const double steepest = 1 + 2 * relief * steps_a_metre;
@@ -14666,11 +14689,10 @@ class horizon_triangles {
 
     /// Writes the results of some columns of cells, by triangle.
     void find(int first_column, int last_column, known* into, isa level) const {
-        for (int left = first_column; left < last_column; left += square)
-            for (int bottom = 0; bottom < grid_.rows - 1; bottom += square) {
+        for (int left = first_column; left < last_column; left += wide)
+            for (int bottom = 0; bottom < grid_.rows - 1; bottom += tall) {
                 answers found;
-                const int right = (std::min)(left + square, last_column),
-                          top = (std::min)(bottom + square, grid_.rows - 1);
+                const int right = (std::min)(left + wide, last_column), top = (std::min)(bottom + tall, grid_.rows - 1);
                 insonify::detail::dispatch(kernel{*this, left, bottom, right, top, found}, level);
                 write(found, left, bottom, right, top, into);
             }
@@ -14682,8 +14704,7 @@ class horizon_triangles {
     void forget(const glm::dvec2& lower, const glm::dvec2& upper, int first_column, int last_column,
                 known* into) const {
         // These columns and, in each, these rows hold all points of such rays within the relief.
-        const auto least = static_cast<double>(horizon_.heights().least),
-                   greatest = static_cast<double>(horizon_.heights().greatest);
+        const double least = horizon_.heights().least, greatest = horizon_.heights().greatest;
         const double beside = 0x1p-8 + horizon_.margin();  // covers rounding
         const auto held = [](double at, int first, int last) {
             return static_cast<int>((std::min)((std::max)(at, static_cast<double>(first)), static_cast<double>(last)));
@@ -14704,19 +14725,24 @@ class horizon_triangles {
     }
 
   private:
-    static constexpr int square = 32;  ///< cells of a block, which stays in the cache
+    /// Cells of a block, whose results stay in the cache. Along a column, what is read is contiguous; from one to the
+    /// next it is in another page, which no hardware prefetches.
+    static constexpr int wide = 32, tall = 256;
 
-    /// Results for the cells of a block, both triangles of a cell side by side.
+    /// Results for the cells of a block.
     struct answers {
-        known of[square][square][2];  ///< by row, then column
+        std::int32_t of[wide][tall];  ///< by column, then row: of the first triangle, and of the second << 8
     };
 
     /// The results of a block in the order of the mesh.
     void write(const answers& found, int left, int bottom, int right, int top, known* into) const {
-        for (int y = bottom; y < top; ++y) {
-            const auto& row = found.of[y - bottom];
-            for (int x = left; x < right; ++x) std::memcpy(into + grid_.first_triangle(x, y), row[x - left], 2);
-        }
+        for (int y = bottom; y < top; ++y)
+            for (int x = left; x < right; ++x) {
+                const std::int32_t both = found.of[x - left][y - bottom];
+                known* const cell = into + grid_.first_triangle(x, y);
+                cell[0] = static_cast<known>(both & 0xFF);
+                cell[1] = static_cast<known>(both >> 8);
+            }
     }
 
     struct kernel {
@@ -14779,11 +14805,7 @@ class horizon_triangles {
             }
             const auto& first = whole.lower_is_first_ ? lower : upper;
             const auto& second = whole.lower_is_first_ ? upper : lower;
-            for (int k = 0; k < N; ++k) {
-                known* const cell = into.of[y + k - bottom][x - left];
-                cell[0] = static_cast<known>(lane(first, k));
-                cell[1] = static_cast<known>(lane(second, k));
-            }
+            store(&into.of[x - left][y - bottom], lanes<std::int32_t, N>(first | second << 8));
         }
     };
 
@@ -15094,7 +15116,7 @@ class grid_caster {
         : mesh_(c.mesh),
           to_mesh_(inverse(c.placement)),
           travel_(transform_direction(to_mesh_, -frame.to_light())),
-          bounds_(mesh_, *c.grid, travel_, level, ex),
+          bounds_(mesh_, c.box, *c.grid, travel_, level, ex),
           blocks_(bounds_.grid(), bounds_.heights(), level, ex) {}
 
     /// Whether it blocks the light of one of its own points that faces the light.
@@ -16761,7 +16783,7 @@ inline ground_rect casting_ground(const overhead_geometry& view, const seabed::h
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/overhead/detail/undecided_light.hpp ----------------------------------------
-// Input of the shadow pass: which pixels' light is undecided, and how much may arrive there.
+// Input of the shadow pass: the pixels whose light is undecided, and how much may arrive there.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -16787,24 +16809,120 @@ class pixel_marks {
         byte = static_cast<std::uint8_t>((byte & ~(which << x % 8)) | (marks & which) << x % 8);
     }
     void set(int x, int y) { set(x, y, 1, 1); }
-    /// Calls visit(x) for each marked pixel of a row, from x0 to x1, which are multiples of 8 or the row's end.
-    template <class Visit>
-    void for_each(int x0, int x1, int y, const Visit& visit) const {
-        for (int x = x0; x < x1; x += 8)
-            for (unsigned left = bytes_(x / 8, y); left != 0; left &= left - 1) visit(x + std::countr_zero(left));
+    /// Clears a mark.
+    /// @returns whether it was set
+    bool take(int x, int y) {
+        std::uint8_t& byte = bytes_(x / 8, y);
+        const unsigned bit = 1u << x % 8, before = byte;
+        byte = static_cast<std::uint8_t>(before & ~bit);
+        return (before & bit) != 0;
     }
 
   private:
     image<std::uint8_t> bytes_;
 };
 
-/// Output of shading for the shadow pass.
+struct undecided_pixel {
+    std::uint16_t column, row;  ///< within the tile
+    std::uint32_t id;           ///< in the visibility buffer
+    float direct;               ///< light that the source adds if nothing blocks it
+};
+
+/// Output of shading for the shadow pass: a list for each tile, as few pixels are undecided.
 ///
-/// A pixel whose triangle is known to be lit gets all its light at once, any other its sky and ambient light.
-struct undecided_light {
-    pixel_marks marks;      ///< pixels whose light is undecided
-    image<float> direct;    ///< light that the source adds to them if nothing blocks it
-    bool has_dark = false;  ///< whether pixels without such light are marked too, to label their shadows
+/// A pixel whose triangle is known to be lit gets all its light at once, any other its sky and ambient light. A surface
+/// that is drawn over another leaves the other's pixels in the lists: the last one of a marked pixel counts.
+class undecided_light {
+  public:
+    undecided_light() = default;
+    /// @param tile  pixels, a power of 2
+    undecided_light(int width, int height, int tile, const shared_pool& memory)
+        : tiles_(width, height, std::countr_zero(static_cast<unsigned>(tile))), marks_(width, height, memory) {
+        std::size_t start = 0;
+        for (std::size_t i = 0; i < tiles_.count(); ++i) {
+            // More than the tile's pixels, so that hidden ones are rarely looked for.
+            const rect box = tiles_.pixels(i, width, height);
+            const auto shown = static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height());
+            lists_.push_back({start, 0, shown + shown / 4 + 8});
+            start += lists_.back().room;
+        }
+        pixels_ = uninitialized_array<undecided_pixel>(start, memory);
+    }
+
+    /// Empties the list of a tile.
+    void clear(const rect& tile) {
+        marks_.clear(tile);
+        lists_[tile_of(tile.x0, tile.y0)].count = 0;
+    }
+
+    /// Replaces some of N pixels of a row, whose marks lie in one byte.
+    /// @param which      pixels that are shaded, bit by bit
+    /// @param undecided  those of them whose light is undecided
+    template <int N>
+    INSONIFY_INLINE void set(int x, int y, unsigned which, unsigned undecided,
+                             const std::uint32_t (&triangles)[static_cast<unsigned>(N)], std::uint32_t first_id,
+                             const lanes<float, N>& direct) {
+        marks_.set(x, y, which, 0);
+        if (undecided == 0) return;
+        const std::size_t tile = tile_of(x, y);
+        list& into = lists_[tile];
+        if (into.count + N > into.room) remove_hidden(tile);
+        marks_.set(x, y, undecided, undecided);
+        float values[static_cast<unsigned>(N)];
+        store(values, direct);
+        const int mask = (1 << tiles_.log2_size) - 1;
+        for (unsigned left = undecided; left != 0; left &= left - 1) {
+            const int k = std::countr_zero(left);
+            pixels_[into.start + into.count++] = {static_cast<std::uint16_t>((x + k) & mask),
+                                                  static_cast<std::uint16_t>(y & mask), first_id + triangles[k],
+                                                  values[k]};
+        }
+    }
+
+    /// Marks a pixel of a list again.
+    void mark(int x, int y) { marks_.set(x, y); }
+
+    /// Calls visit(pixel) for each undecided pixel of a tile and clears its mark.
+    template <class Visit>
+    void take(std::size_t tile, const Visit& visit) {
+        const list& from = lists_[tile];
+        const glm::ivec2 corner = corner_of(tile);
+        for (std::size_t i = from.count; i-- > 0;) {
+            const undecided_pixel& p = pixels_[from.start + i];
+            if (marks_.take(corner.x + p.column, corner.y + p.row)) visit(p);
+        }
+    }
+
+  private:
+    /// Of the pixels of a tile.
+    struct list {
+        std::size_t start, count, room;
+    };
+
+    std::size_t tile_of(int x, int y) const {
+        return static_cast<std::size_t>(y >> tiles_.log2_size) * static_cast<std::size_t>(tiles_.columns) +
+               static_cast<std::size_t>(x >> tiles_.log2_size);
+    }
+    glm::ivec2 corner_of(std::size_t tile) const {
+        const auto columns = static_cast<std::size_t>(tiles_.columns);
+        return {static_cast<int>(tile % columns) << tiles_.log2_size, static_cast<int>(tile / columns)
+                                                                          << tiles_.log2_size};
+    }
+    /// Leaves only pixels in a list that count.
+    INSONIFY_RARE void remove_hidden(std::size_t tile) {
+        list& of = lists_[tile];
+        undecided_pixel* const start = pixels_.data() + of.start;
+        undecided_pixel *const end = start + of.count, *last = end;
+        take(tile, [&](const undecided_pixel p) { *--last = p; });
+        of.count = static_cast<std::size_t>(std::copy(last, end, start) - start);
+        const glm::ivec2 corner = corner_of(tile);
+        for (std::size_t i = 0; i < of.count; ++i) mark(corner.x + start[i].column, corner.y + start[i].row);
+    }
+
+    tile_grid tiles_{0, 0, 0};
+    pixel_marks marks_;
+    uninitialized_array<undecided_pixel> pixels_;
+    std::vector<list> lists_;  ///< by tile
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -16888,16 +17006,16 @@ struct surface {
 struct shaded_images {
     image<float>& picture;
     undecided_light* undecided = nullptr;    ///< if there is a shadow policy
+    bool marks_dark = false;                 ///< pixels that the source cannot light are undecided too, for labels
     image<std::uint32_t>* ids = nullptr;     ///< the visibility buffer
-    bool has_all_ids = true;                 ///< false: ids are stored only where light is undecided
     image<std::uint8_t>* types = nullptr;    ///< seabed::type, of bottoms of several types
     image<std::uint16_t>* shadow = nullptr;  ///< labels of known casters, as in labels::shadow
 
     void clear(const rect& tile) const {
-        if (undecided != nullptr) undecided->marks.clear(tile);
+        if (undecided != nullptr) undecided->clear(tile);
         for (int y = tile.y0; y < tile.y1; ++y) {
             std::fill_n(&picture(tile.x0, y), tile.width(), 0.0f);
-            if (ids != nullptr && has_all_ids) std::fill_n(&(*ids)(tile.x0, y), tile.width(), shadow::invalid_id);
+            if (ids != nullptr) std::fill_n(&(*ids)(tile.x0, y), tile.width(), shadow::invalid_id);
         }
     }
 };
@@ -16958,28 +17076,26 @@ class surface_shader {
         const floats rest = reflectivity * (sky * (0.5f * (1.0f + turned * normal[2])) + ambient);
         const floats one = floats{} + 1.0f, sum = rest + direct;
         const floats all = sum < one ? sum : one;
-        bool has_undecided = false;
         if (into_.undecided == nullptr)
             f.store(into_.picture, all);
         else
-            has_undecided = store_known<N>(f, all, rest, direct);
-        if (into_.ids == nullptr || !(into_.has_all_ids || has_undecided)) return;
+            store_known<N>(f, all, rest, direct);
+        if (into_.ids == nullptr) return;
         lanes<std::uint32_t, N> ids;
         load(ids, f.triangles);
         f.store(*into_.ids, lanes<std::uint32_t, N>(ids + object_.first_id));
     }
 
   private:
-    /// Stores the light of pixels whose triangles are known to be lit or dark, and marks the others as undecided.
+    /// Stores the light of pixels whose triangles are known to be lit or dark, and lists the others as undecided.
     /// @param all  light if nothing blocks the source
-    /// @returns whether any is undecided
     template <int N>
-    INSONIFY_INLINE bool store_known(const fragment_lanes<N, surface_varyings>& f, const lanes<float, N>& all,
+    INSONIFY_INLINE void store_known(const fragment_lanes<N, surface_varyings>& f, const lanes<float, N>& all,
                                      const lanes<float, N>& rest, const lanes<float, N>& direct) const {
         using ints = lanes<std::int32_t, N>;
         using floats = lanes<float, N>;
         floats value = rest < 1.0f ? rest : floats{} + 1.0f;
-        ints undecided = into_.undecided->has_dark ? ints{} - 1 : ints(direct > 0.0f), is_dark{};
+        ints undecided = into_.marks_dark ? ints{} - 1 : ints(direct > 0.0f), is_dark{};
         if (object_.known != nullptr) {
             ints known;
             gather<N>(known, [&](int k) { return static_cast<std::int32_t>(object_.known[f.triangles[k]]); });
@@ -16995,11 +17111,8 @@ class surface_shader {
             f.store(*into_.shadow, caster);
         }
         static_assert(N <= 8);
-        const unsigned which = movemask<N>(f.visible), marks = movemask<N>(undecided) & which;
-        into_.undecided->marks.set(f.x, f.y, which, marks);
-        if (marks == 0) return false;
-        f.store(into_.undecided->direct, direct);
-        return true;
+        const unsigned which = movemask<N>(f.visible);
+        into_.undecided->set<N>(f.x, f.y, which, movemask<N>(undecided) & which, f.triangles, object_.first_id, direct);
     }
 
     /// Replaces normals that are zero or not finite by the facet's.
@@ -17210,6 +17323,7 @@ struct point_batch {
     uninitialized_array<double> x, y, z;
     uninitialized_array<std::uint32_t> mesh, triangle;
     uninitialized_array<std::uint32_t> pixel;  ///< of the picture
+    uninitialized_array<float> direct;         ///< light that arrives there if nothing blocks it
 
     explicit point_batch(std::size_t count, const shared_pool& memory = {})
         : x(count, memory),
@@ -17217,7 +17331,8 @@ struct point_batch {
           z(count, memory),
           mesh(count, memory),
           triangle(count, memory),
-          pixel(count, memory) {}
+          pixel(count, memory),
+          direct(count, memory) {}
 
     shadow::points part(std::size_t first, std::size_t n) const {
         const auto some = [&](const auto& array) { return std::span(array).subspan(first, n); };
@@ -17238,12 +17353,13 @@ class point_list {
     std::size_t size() const { return facing + averted; }
     shadow::points facing_points() const { return room_->part(first_, facing); }
     shadow::points averted_points() const { return room_->part(last_ - averted, averted); }
-    /// The pixel and the caster of a point; facing ones are counted first.
+    /// The pixel, its light and the caster of a point; facing ones are counted first.
     std::size_t pixel(std::size_t point) const { return room_->pixel[at(point)]; }
+    float direct(std::size_t point) const { return room_->direct[at(point)]; }
     std::uint32_t caster(std::size_t point) const { return room_->mesh[at(point)]; }
 
     INSONIFY_INLINE void add(bool is_facing, double x, double y, double z, std::uint32_t mesh, std::uint32_t triangle,
-                             std::uint32_t pixel) {
+                             std::uint32_t pixel, float direct) {
         const std::size_t to = is_facing ? first_ + facing++ : last_ - ++averted;
         room_->x[to] = x;
         room_->y[to] = y;
@@ -17251,6 +17367,7 @@ class point_list {
         room_->mesh[to] = mesh;
         room_->triangle[to] = triangle;
         room_->pixel[to] = pixel;
+        room_->direct[to] = direct;
     }
 
   private:
@@ -17284,6 +17401,7 @@ struct point_finder {
 struct shown_pixel {
     std::uint16_t column, row;  ///< within the tile
     std::uint32_t triangle;
+    float direct;  ///< see point_batch
 };
 
 /// Finds the points of some pixels of one object.
@@ -17299,10 +17417,25 @@ struct point_kernel {
     template <int Width>
     INSONIFY_INLINE void run() const {
         constexpr int N = Width > 1 ? Width / 2 : 1;
-        for (std::size_t i = 0; i < pixels.size(); i += N) find<N>(i, (std::min)(pixels.size() - i, std::size_t{N}));
+        for (std::size_t i = 0; i < pixels.size(); i += N) {
+            prefetch_ahead<N>(i);
+            find<N>(i, (std::min)(pixels.size() - i, std::size_t{N}));
+        }
     }
 
   private:
+    /// Prefetches the triangles of pixels a few rounds ahead of `i`, and the vertices of those fetched before.
+    template <int N>
+    INSONIFY_INLINE void prefetch_ahead(std::size_t i) const {
+        const mesh_view& m = from.object->mesh;
+        const auto some = [&](int rounds) {
+            const std::size_t first = (std::min)(i + static_cast<std::size_t>(rounds * N), pixels.size());
+            return pixels.subspan(first, (std::min)(pixels.size() - first, std::size_t{N}));
+        };
+        for (const shown_pixel& p : some(4)) prefetch(&m.triangles[p.triangle]);
+        for (const shown_pixel& p : some(2))
+            for (int k = 0; k < 3; ++k) prefetch(&m.positions[m.triangles[p.triangle][k]]);
+    }
     template <class Reals>
     INSONIFY_INLINE static void cross(Reals (&into)[3], const Reals (&a)[3], const Reals (&b)[3]) {
         into[0] = a[1] * b[2] - b[1] * a[2];
@@ -17409,7 +17542,8 @@ struct point_kernel {
             const shown_pixel& shown = pixels[start + k];
             points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], s.caster, shown.triangle,
                        static_cast<std::uint32_t>(box.y0 + shown.row) * pitch +
-                           static_cast<std::uint32_t>(box.x0 + shown.column));
+                           static_cast<std::uint32_t>(box.x0 + shown.column),
+                       shown.direct);
         }
     }
 
@@ -17540,9 +17674,8 @@ template <class Labels>
 class shadow_pass {
   public:
     struct images {
-        const image<std::uint32_t>& ids;  ///< the visibility buffer of the surfaces, where light is undecided
-        undecided_light& undecided;       ///< screening clears the marks of pixels that it decides
-        image<float>& picture;            ///< the light that arrives is added
+        undecided_light& undecided;
+        image<float>& picture;  ///< the light that arrives is added
         Labels& marks;
     };
 
@@ -17569,9 +17702,8 @@ class shadow_pass {
         bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
             scratch room(surfaces_.size(), tile_pixels_);
             for (std::size_t i = first; i < last; ++i) {
-                const rect box = box_of(i);
                 point_list points(room.points, 0, tile_pixels_);
-                find_points(box, room.shown, points);
+                find_points(i, room.shown, points);
                 const shadow::results light = room.light.part(0, points.size());
                 for_each_batch(points, light, targets_, [&](const shadow::points& p, const shadow::results& s) {
                     if constexpr (is_collective)
@@ -17580,7 +17712,7 @@ class shadow_pass {
                         occlusion.test(p, s);
                 });
                 finish(points, light);
-                if constexpr (is_collective) unknown[i] = mark_unknown(box, points, light);
+                if constexpr (is_collective) unknown[i] = mark_unknown(points, light);
             }
         });
         if constexpr (is_collective) test_together(occlusion, unknown, ex);
@@ -17603,16 +17735,14 @@ class shadow_pass {
         return tiles_.pixels(tile, images_.picture.width(), images_.picture.height());
     }
     /// The points of a tile whose light is undecided.
-    void find_points(const rect& box, shown_by_surface& shown, point_list& into) {
+    void find_points(std::size_t tile, shown_by_surface& shown, point_list& into) {
         const surface* last = surfaces_.data();
-        for (int y = box.y0; y < box.y1; ++y)
-            images_.undecided.marks.for_each(box.x0, box.x1, y, [&](int x) {
-                const std::uint32_t id = images_.ids(x, y);
-                if (id - last->first_id >= last->mesh.triangles.size()) last = &surface_of(surfaces_, id);
-                shown[static_cast<std::size_t>(last - surfaces_.data())].push_back(
-                    {static_cast<std::uint16_t>(x - box.x0), static_cast<std::uint16_t>(y - box.y0),
-                     id - last->first_id});
-            });
+        images_.undecided.take(tile, [&](const undecided_pixel& p) {
+            if (p.id - last->first_id >= last->mesh.triangles.size()) last = &surface_of(surfaces_, p.id);
+            shown[static_cast<std::size_t>(last - surfaces_.data())].push_back(
+                {p.column, p.row, p.id - last->first_id, p.direct});
+        });
+        const rect box = box_of(tile);
         for (std::size_t i = 0; i < finders_.size(); ++i) {
             if (shown[i].empty()) continue;
             dispatch(point_kernel{finders_[i], shown[i], view_.has_near_light(), labelled, box,
@@ -17622,17 +17752,15 @@ class shadow_pass {
         }
     }
 
-    /// Leaves marks on the pixels of a tile that screening does not decide.
+    /// Marks the pixels that screening does not decide.
     /// @returns their number
-    std::size_t mark_unknown(const rect& box, const point_list& points, const shadow::results& light) {
+    std::size_t mark_unknown(const point_list& points, const shadow::results& light) {
         const auto width = static_cast<std::size_t>(images_.picture.width());
-        pixel_marks& marks = images_.undecided.marks;
-        marks.clear(box);
         std::size_t count = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (light.lit[i] != shadow::unknown) continue;
             const std::size_t pixel = points.pixel(i);
-            marks.set(static_cast<int>(pixel % width), static_cast<int>(pixel / width));
+            images_.undecided.mark(static_cast<int>(pixel % width), static_cast<int>(pixel / width));
             ++count;
         }
         return count;
@@ -17654,7 +17782,8 @@ class shadow_pass {
         for (std::size_t i = 0; i + 1 < starts.size(); ++i) lists.emplace_back(all, starts[i], starts[i + 1]);
         bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
             shown_by_surface shown(surfaces_.size());
-            for (std::size_t i = first; i < last; ++i) find_points(box_of(i), shown, lists[first / run_]);
+            for (std::size_t i = first; i < last; ++i)
+                if (unknown[i] > 0) find_points(i, shown, lists[first / run_]);
         });
         const auto part = [&](std::size_t i) { return light.part(starts[i], lists[i].size()); };
         std::vector<shadow::points> at;
@@ -17670,15 +17799,17 @@ class shadow_pass {
 
     void finish(const point_list& points, const shadow::results& light) {
         for (std::size_t i = 0; i < points.size(); ++i)
-            finish(points.pixel(i), i < points.facing, points.caster(i), light.lit[i], light.caster[i]);
+            finish(points.pixel(i), points.direct(i), i < points.facing, points.caster(i), light.lit[i],
+                   light.caster[i]);
     }
     /// Adds the light that arrives at a pixel, and labels its shadow, see light_pass.hpp.
+    /// @param direct  light that arrives if nothing blocks it
     /// @param own     the caster that the point lies on
     /// @param caster  the caster that blocks its light
-    void finish(std::size_t pixel, bool is_facing, std::uint32_t own, float lit, std::uint32_t caster) {
+    void finish(std::size_t pixel, float direct, bool is_facing, std::uint32_t own, float lit, std::uint32_t caster) {
         if (is_facing && lit > 0.0f) {
             float& value = images_.picture.pixels()[pixel];
-            value = (std::min)(1.0f, value + lit * images_.undecided.direct.pixels()[pixel]);
+            value = (std::min)(1.0f, value + lit * direct);
         }
         if constexpr (labelled) {
             if (is_facing && !(lit < 0.5f)) return;
@@ -17746,8 +17877,8 @@ class overhead_painter {
                 options_.shadow.build(std::span<const shadow::caster>(casters), light_in_rig(view_), bounds, ex);
             const auto known = settle_triangles(occlusion, ex);
             draw_all(ex);
-            shadow_pass<Labels>(view_, surfaces_, {ids_, undecided_, out_.image, out_.labels}, targets_.size(),
-                                options_.tile, options_.level)
+            shadow_pass<Labels>(view_, surfaces_, {undecided_, out_.image, out_.labels}, targets_.size(), options_.tile,
+                                options_.level)
                 .cast(occlusion, ex);
         } else {
             draw_all(ex);
@@ -17874,13 +18005,12 @@ class overhead_painter {
         image<float> depth(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
         shaded_images into{out_.image};
         if constexpr (casts) {
-            undecided_ = {pixel_marks(rig.size.x, rig.size.y, memory_of(ex)),
-                          image<float>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex)), labelled};
+            undecided_ = undecided_light(rig.size.x, rig.size.y, options_.tile, memory_of(ex));
             into.undecided = &undecided_;
-            into.has_all_ids = labelled;
+            into.marks_dark = labelled;
             if constexpr (labelled) into.shadow = &out_.labels.shadow;
         }
-        if constexpr (casts || labelled) {
+        if constexpr (labelled) {
             ids_ = image<std::uint32_t>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
             into.ids = &ids_;
         }

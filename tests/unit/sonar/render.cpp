@@ -387,6 +387,12 @@ TEST_CASE("Pictures of one pixel and of odd shapes are drawn") {
         CHECK(picture.stats.seabed.pixels == static_cast<std::uint64_t>(size.x * size.y));
         for (const float v : picture.image.pixels()) CHECK((v >= 0 && v <= 1));
     }
+    // Straight down on the cube, whose top is lit.
+    in::overhead rig{.position = {-1, 0}, .altitude = 3, .size = {1, 1}, .grazing = 40_deg};
+    const float alone = in::render(cube_on_plane(0.5), rig).image(0, 0);
+    rig.size = {3, 3};
+    CHECK(alone == in::render(cube_on_plane(0.5), rig).image(1, 1));
+    CHECK(alone > 0.2f);
 }
 
 TEST_CASE(
@@ -463,6 +469,29 @@ TEST_CASE("The order of targets in the scene does not change the picture") {
             differ += first == 0 ? last != 0 : last != 21 - first;
         }
     CHECK(differ == 0);
+}
+
+TEMPLATE_TEST_CASE("Sheets over sheets, drawn from the lowest to the highest, have the picture of the reverse order",
+                   "", in::shadow::map, in::shadow::exact) {
+    const in::seabed::heightfield field = in::seabed::sample(in::seabed::rock{}, {{-9, -9}, 0.25, 73, 73});
+    in::scene upwards, downwards;
+    constexpr int sheets = 6;
+    for (in::scene* s : {&upwards, &downwards}) {
+        s->seabed = in::seabed::none{};
+        for (int i = 0; i < sheets; ++i) {
+            const double height = s == &upwards ? i : sheets - 1 - i;
+            s->add(in::seabed::tessellate(field), {.position = {-9, -9, 0.5 * height}, .pitch = 0.01f}, "sheet");
+        }
+    }
+    const in::overhead rig{.altitude = 8, .field_of_view = 45_deg, .size = {77, 51}, .grazing = 25_deg};
+    for (const int tile : {16, 64}) {
+        in::render_options<TestType, in::no_labels> options;
+        options.tile = tile;
+        const in::image<float> picture = in::render(upwards, rig, options).image;
+        CHECK(picture == in::render(downwards, rig, options).image);
+        const auto [least, most] = std::minmax_element(picture.pixels().begin(), picture.pixels().end());
+        CHECK(*most > 4 * *least);
+    }
 }
 
 TEST_CASE("With exact depth the nearer of two sheets is visible wherever their depths differ as floats") {

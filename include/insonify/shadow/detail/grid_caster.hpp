@@ -18,7 +18,7 @@ class grid_caster {
         : mesh_(c.mesh),
           to_mesh_(inverse(c.placement)),
           travel_(transform_direction(to_mesh_, -frame.to_light())),
-          bounds_(mesh_, *c.grid, travel_, level, ex),
+          bounds_(mesh_, c.box, *c.grid, travel_, level, ex),
           blocks_(bounds_.grid(), bounds_.heights(), level, ex) {}
 
     /// Whether it blocks the light of one of its own points that faces the light.

@@ -34,91 +34,122 @@ struct horizon_bound {
     float lit_above;   ///< no ray of the strip meets a u above this
 };
 
-/// Computes the bounds of some strips.
+/// Computes the bounds of adjacent strips, column by column: neighbours read the same heights.
 struct horizon_kernel {
+    static constexpr int most = 64;  ///< strips
+
     const lit_grid& grid;
     const grid_heights& heights;
-    int first_strip;       ///< strips count from this
-    int from, to, strips;  ///< these, of so many
-    float margin;          ///< of u
-    float* bounds;         ///< by column: the lower bound of each strip, then the upper ones
+    int first_row;      ///< of the first strip, in column 0
+    int count, strips;  ///< of these, and of all: multiples of 16
+    float margin;       ///< of u
+    float* bounds;      ///< of the first strip; by column: the lower bound of each strip, then the upper ones
 
     template <int N>
     INSONIFY_INLINE void run() const {
-        for (int k = from; k < to; k += N) sweep<N>(k);
+        bounds_so_far now;
+        const auto slope = static_cast<float>(grid.slope);
+        float copies[2][static_cast<unsigned>(room)];
+        std::int32_t rises[static_cast<unsigned>(room)];
+        for (int x = 0; x < grid.columns; ++x) {
+            // The strips' first row where they cross the column: `row` to `row + 3` surround the first strip up to the
+            // next column.
+            const int row = first_row + static_cast<int>(grid.slope * x);
+            float* const of_column = bounds + static_cast<std::ptrdiff_t>(x) * 2 * strips;
+            if (row + count + 3 < 0 || row >= grid.rows) {
+                std::copy_n(now.dark_below, count, of_column);
+                std::copy_n(now.lit_above, count, of_column + strips);
+                continue;
+            }
+            const float* const here = heights_from(x, row, copies[0]);
+            const float* const ahead = heights_from(x + 1, row, copies[1]);
+            for (int k = 0; k < count + 2; k += N) find_rises<N>(rises + k, here + k, ahead + k, slope);
+            for (int k = 0; k < count; k += N) advance<N>(now, k, here + k, ahead + k, rises + k, of_column + k);
+        }
     }
 
   private:
+    static constexpr int room = most + 2 * 16;  ///< rows around the strips, in whole vectors
+
+    struct bounds_so_far {
+        float dark_below[static_cast<unsigned>(most)], lit_above[static_cast<unsigned>(most)];
+
+        bounds_so_far() {
+            std::fill_n(dark_below, most, grid_heights::nothing);
+            std::fill_n(lit_above, most, grid_heights::nothing);
+        }
+    };
+
+    /// The heights of a column from a row on, copied where they end.
+    const float* heights_from(int x, int row, float* copy) const {
+        const bool exists = x < grid.columns;
+        if (exists && row >= -grid_heights::around && row + room <= grid.rows + grid_heights::around)
+            return heights.column(x) + row;
+        std::fill_n(copy, room, grid_heights::nothing);
+        const int first = (std::max)(row, 0), last = (std::min)(row + room, grid.rows);
+        if (exists && first < last) std::copy_n(heights.column(x) + first, last - first, copy + (first - row));
+        return copy;
+    }
+
+    /// Masks of the cells between two columns along which u increases, or where there is no cell.
     template <int N>
-    INSONIFY_INLINE void sweep(int k) const {
+    INSONIFY_INLINE void find_rises(std::int32_t* into, const float* here, const float* ahead, float slope) const {
+        using namespace insonify::detail;
+        using ints = lanes<std::int32_t, N>;
+        lanes<float, N> a, b, c, d, lower, upper;  // (0,0) (1,0) (0,1) (1,1)
+        load(a, here), load(b, ahead), load(c, here + 1), load(d, ahead + 1);
+        if (grid.is_rising) {
+            lower = (b - a) + slope * (d - b);
+            upper = (d - c) + slope * (c - a);
+        } else {
+            lower = (b - a) + slope * (c - a);
+            upper = (d - c) + slope * (d - b);
+        }
+        // Cells outside of the grid do not shade.
+        const ints is_cell = ints(a > grid_heights::nothing) & ints(b > grid_heights::nothing) &
+                             ints(c > grid_heights::nothing) & ints(d > grid_heights::nothing);
+        const ints up = ints(lower > margin) & ints(upper > margin);
+        store(into, ints(up | ints(is_cell == 0)));
+    }
+
+    /// Takes N strips from one column to the next.
+    /// @param of_column  where their bounds go
+    template <int N>
+    INSONIFY_INLINE void advance(bounds_so_far& now, int k, const float* here, const float* ahead,
+                                 const std::int32_t* rises_of, float* of_column) const {
         using namespace insonify::detail;
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
-        const auto slope = static_cast<float>(grid.slope);
-        floats dark_below = floats{} + grid_heights::nothing, lit_above = dark_below;
-        ints was_rising = ints{} - 1;
-        for (int x = 0; x < grid.columns; ++x) {
-            // The strip's rows where it crosses the column, and up to the next one: `row` to `row + 3` surround it.
-            const int row = first_strip + k + static_cast<int>(grid.slope * x);
-            floats here[4] = {}, ahead[4] = {};
-            read<N>(here, x, row);
-            if (x + 1 < grid.columns)
-                read<N>(ahead, x + 1, row);
-            else
-                for (floats& value : ahead) value = floats{} + grid_heights::nothing;
-            floats lowest = here[0], highest = here[0];
-            unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
-                if (i < 2) lowest = here[i + 1] < lowest ? here[i + 1] : lowest;
-                highest = here[i + 1] > highest ? here[i + 1] : highest;
-            });
-            // Every ray of the strip meets the column between rows `row` and `row + 2`.
-            dark_below = lowest > dark_below ? lowest : dark_below;
-            // The columns before count unless u increases all along them.
-            lit_above = was_rising ? lit_above : floats(highest > lit_above ? highest : lit_above);
-            ints rises = ints{} - 1;
-            unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
-                const floats &a = here[i], &b = ahead[i], &c = here[i + 1],
-                             &d = ahead[i + 1];  // (0,0) (1,0) (0,1) (1,1)
-                floats lower, upper;
-                if (grid.is_rising) {
-                    lower = (b - a) + slope * (d - b);
-                    upper = (d - c) + slope * (c - a);
-                } else {
-                    lower = (b - a) + slope * (c - a);
-                    upper = (d - c) + slope * (d - b);
-                }
-                // Cells outside of the grid do not shade.
-                const ints is_cell = ints(a > grid_heights::nothing) & ints(b > grid_heights::nothing) &
-                                     ints(c > grid_heights::nothing) & ints(d > grid_heights::nothing);
-                const ints up = ints(lower > margin) & ints(upper > margin);
-                rises = rises & ints(up | ints(is_cell == 0));
-            });
-            // Where u does not increase, these cells may shade points in them and after.
-            floats next = highest;
-            unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { next = ahead[i] > next ? ahead[i] : next; });
-            lit_above = rises ? lit_above : floats(next > lit_above ? next : lit_above);
-            floats stored = rises ? lit_above : floats{} + std::numeric_limits<float>::infinity();
-            float* const of_column = bounds + static_cast<std::ptrdiff_t>(x) * 2 * strips + k;
-            store(of_column, dark_below);
-            store(of_column + strips, stored);
-            was_rising = rises;
-        }
-    }
-    template <int N>
-    INSONIFY_INLINE void read(insonify::detail::lanes<float, N> (&into)[4], int x, int row) const {
-        using namespace insonify::detail;
-        // Strips beside the grid read the padding value.
-        const float* const column = heights.column(x);
-        const int low = -grid_heights::around, high = grid.rows + grid_heights::around - 4;
-        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA {
-            if (row + i >= low && row + i + N <= high + 4)
-                load(into[i], column + row + i);
-            else
-                gather<N>(into[i], [&](int lane) {
-                    const int at = row + i + lane;
-                    return at >= 0 && at < grid.rows ? column[at] : grid_heights::nothing;
-                });
+        floats dark_below, lit_above, lowest, highest, next;
+        ints rises;
+        load(dark_below, now.dark_below + k), load(lit_above, now.lit_above + k);
+        load(lowest, here), load(rises, rises_of);
+        highest = lowest;
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+            floats other;
+            load(other, here + i + 1);
+            if (i < 2) lowest = other < lowest ? other : lowest;
+            highest = other > highest ? other : highest;
         });
+        unroll<2>([&](int i) INSONIFY_INLINE_LAMBDA {
+            ints other;
+            load(other, rises_of + i + 1);
+            rises = rises & other;
+        });
+        // Every ray of the strip meets the column between rows `row` and `row + 2`.
+        dark_below = lowest > dark_below ? lowest : dark_below;
+        // Where u does not increase, these cells may shade points in them and after, on the next column too.
+        next = highest;
+        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA {
+            floats other;
+            load(other, ahead + i);
+            next = other > next ? other : next;
+        });
+        lit_above = rises ? lit_above : floats(next > lit_above ? next : lit_above);
+        const floats stored = rises ? lit_above : floats{} + std::numeric_limits<float>::infinity();
+        store(of_column, dark_below);
+        store(of_column + strips, stored);
+        store(now.dark_below + k, dark_below), store(now.lit_above + k, lit_above);
     }
 };
 
@@ -126,11 +157,13 @@ struct horizon_kernel {
 class horizon_bounds {
   public:
     /// @param m       the mesh, on the lattice
+    /// @param box     around it
     /// @param travel  direction in which light travels, in the mesh's frame; downwards
     template <executor E>
-    horizon_bounds(const mesh_view& m, const regular_grid& lattice, const glm::dvec3& travel, isa level, E& ex)
-        : grid_(lattice, travel), heights_(m, grid_, ex), off_(lattice.off) {
-        const auto greatest = static_cast<double>(heights_.greatest), least = static_cast<double>(heights_.least);
+    horizon_bounds(const mesh_view& m, const bounding_box& box, const regular_grid& lattice, const glm::dvec3& travel,
+                   isa level, E& ex)
+        : grid_(lattice, travel), heights_(m, box, grid_, ex), off_(lattice.off) {
+        const double greatest = heights_.greatest, least = heights_.least;
         const double relief = grid_.drop * (greatest - least);
         const double size = grid_.columns + grid_.drop * (std::max)(numeric::abs(greatest), numeric::abs(least));
         margin_ = 0x1p-21 * size + 4 * off_ * (2 + relief);
@@ -139,10 +172,10 @@ class horizon_bounds {
         bounds_ = insonify::detail::uninitialized_array<float>(
             2 * static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(strips_),
             insonify::detail::memory_of(ex));
-        bulk_ranges(ex, static_cast<std::size_t>(strips_), 64, [&](std::size_t from, std::size_t to) {
+        bulk_ranges(ex, static_cast<std::size_t>(strips_), horizon_kernel::most, [&](std::size_t from, std::size_t to) {
             insonify::detail::dispatch(
-                horizon_kernel{grid_, heights_, first_strip_, static_cast<int>(from), static_cast<int>(to), strips_,
-                               static_cast<float>(margin_), bounds_.data()},
+                horizon_kernel{grid_, heights_, first_strip_ + static_cast<int>(from), static_cast<int>(to - from),
+                               strips_, static_cast<float>(margin_), bounds_.data() + from},
                 level);
         });
     }

@@ -9,7 +9,6 @@
 #include <insonify/shadow/detail/horizon_bounds.hpp>
 #include <insonify/shadow/detail/light_planes.hpp>
 
-#include <cstring>
 #include <utility>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -62,8 +61,7 @@ class horizon_triangles {
         eye_ = grid_.steps(glm::dvec2(eye));
         eye_u_ = eye_.x + grid_.drop * eye.z;
         // The sine is u's slope along the light, times the light's own sine, over the length of the facet's normal.
-        const double relief =
-            static_cast<double>(horizon.heights().greatest) - static_cast<double>(horizon.heights().least);
+        const double relief = horizon.heights().greatest - horizon.heights().least;
         const auto square_of = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
         const double steps_a_metre = numeric::square_root((std::max)(square_of(grid_.x_of), square_of(grid_.y_of)));
         const double steepest = 1 + 2 * relief * steps_a_metre;
@@ -81,11 +79,10 @@ class horizon_triangles {
 
     /// Writes the results of some columns of cells, by triangle.
     void find(int first_column, int last_column, known* into, isa level) const {
-        for (int left = first_column; left < last_column; left += square)
-            for (int bottom = 0; bottom < grid_.rows - 1; bottom += square) {
+        for (int left = first_column; left < last_column; left += wide)
+            for (int bottom = 0; bottom < grid_.rows - 1; bottom += tall) {
                 answers found;
-                const int right = (std::min)(left + square, last_column),
-                          top = (std::min)(bottom + square, grid_.rows - 1);
+                const int right = (std::min)(left + wide, last_column), top = (std::min)(bottom + tall, grid_.rows - 1);
                 insonify::detail::dispatch(kernel{*this, left, bottom, right, top, found}, level);
                 write(found, left, bottom, right, top, into);
             }
@@ -97,8 +94,7 @@ class horizon_triangles {
     void forget(const glm::dvec2& lower, const glm::dvec2& upper, int first_column, int last_column,
                 known* into) const {
         // These columns and, in each, these rows hold all points of such rays within the relief.
-        const auto least = static_cast<double>(horizon_.heights().least),
-                   greatest = static_cast<double>(horizon_.heights().greatest);
+        const double least = horizon_.heights().least, greatest = horizon_.heights().greatest;
         const double beside = 0x1p-8 + horizon_.margin();  // covers rounding
         const auto held = [](double at, int first, int last) {
             return static_cast<int>((std::min)((std::max)(at, static_cast<double>(first)), static_cast<double>(last)));
@@ -119,19 +115,24 @@ class horizon_triangles {
     }
 
   private:
-    static constexpr int square = 32;  ///< cells of a block, which stays in the cache
+    /// Cells of a block, whose results stay in the cache. Along a column, what is read is contiguous; from one to the
+    /// next it is in another page, which no hardware prefetches.
+    static constexpr int wide = 32, tall = 256;
 
-    /// Results for the cells of a block, both triangles of a cell side by side.
+    /// Results for the cells of a block.
     struct answers {
-        known of[square][square][2];  ///< by row, then column
+        std::int32_t of[wide][tall];  ///< by column, then row: of the first triangle, and of the second << 8
     };
 
     /// The results of a block in the order of the mesh.
     void write(const answers& found, int left, int bottom, int right, int top, known* into) const {
-        for (int y = bottom; y < top; ++y) {
-            const auto& row = found.of[y - bottom];
-            for (int x = left; x < right; ++x) std::memcpy(into + grid_.first_triangle(x, y), row[x - left], 2);
-        }
+        for (int y = bottom; y < top; ++y)
+            for (int x = left; x < right; ++x) {
+                const std::int32_t both = found.of[x - left][y - bottom];
+                known* const cell = into + grid_.first_triangle(x, y);
+                cell[0] = static_cast<known>(both & 0xFF);
+                cell[1] = static_cast<known>(both >> 8);
+            }
     }
 
     struct kernel {
@@ -194,11 +195,7 @@ class horizon_triangles {
             }
             const auto& first = whole.lower_is_first_ ? lower : upper;
             const auto& second = whole.lower_is_first_ ? upper : lower;
-            for (int k = 0; k < N; ++k) {
-                known* const cell = into.of[y + k - bottom][x - left];
-                cell[0] = static_cast<known>(lane(first, k));
-                cell[1] = static_cast<known>(lane(second, k));
-            }
+            store(&into.of[x - left][y - bottom], lanes<std::int32_t, N>(first | second << 8));
         }
     };
 

@@ -6,6 +6,7 @@
 #include <insonify/core/detail/uninitialized.hpp>
 #include <insonify/core/executor.hpp>
 #include <insonify/core/numeric.hpp>
+#include <insonify/geometry/bounds.hpp>
 #include <insonify/geometry/mesh.hpp>
 #include <insonify/geometry/regular_grid.hpp>
 
@@ -95,48 +96,39 @@ struct grid_heights {
 
     int pitch = 0;
     insonify::detail::uninitialized_array<float> u;
-    float least = 0, greatest = 0;  ///< z
+    double least = 0, greatest = 0;  ///< bounds of z
 
     template <executor E>
-    grid_heights(const mesh_view& m, const lit_grid& grid, E& ex)
+    grid_heights(const mesh_view& m, const bounding_box& bounds, const lit_grid& grid, E& ex)
         : pitch(grid.rows + 2 * around),
-          u(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(pitch), insonify::detail::memory_of(ex)) {
+          u(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(pitch), insonify::detail::memory_of(ex)),
+          least(bounds.lower.z),
+          greatest(bounds.upper.z) {
         // In square blocks, so that both reads and writes are contiguous.
-        constexpr int square = 32;
+        constexpr int square = 64;
         const auto drop = static_cast<float>(grid.drop);
-        const auto runs = static_cast<std::size_t>((grid.columns + square - 1) / square);
-        std::vector<glm::vec2> ranges(runs);
         bulk_ranges(ex, static_cast<std::size_t>(grid.columns), square, [&](std::size_t from, std::size_t to) {
             const auto left = static_cast<int>(from), right = static_cast<int>(to);
-            float low = std::numeric_limits<float>::infinity(), high = -low;
             for (int x = left; x < right; ++x) {
                 std::fill_n(column(x) - around, around, nothing);
                 std::fill_n(column(x) + grid.rows, around, nothing);
             }
-            const auto note = [&](int x, int y, float z) {
-                low = (std::min)(low, z);
-                high = (std::max)(high, z);
-                column(x)[y] = static_cast<float>(x) + drop * z;
-            };
             const glm::vec3* const first = m.positions.data() + grid.first;
+            const auto set = [&](int x, int y) {
+                column(x)[y] = static_cast<float>(x) + drop * first[x * grid.along + y * grid.across].z;
+            };
             for (int bottom = 0; bottom < grid.rows; bottom += square) {
                 const int top = (std::min)(bottom + square, grid.rows);
                 // Along the mesh's own rows.
                 if (grid.across == 1 || grid.across == -1) {
                     for (int x = left; x < right; ++x)
-                        for (int y = bottom; y < top; ++y) note(x, y, first[x * grid.along + y * grid.across].z);
+                        for (int y = bottom; y < top; ++y) set(x, y);
                 } else {
                     for (int y = bottom; y < top; ++y)
-                        for (int x = left; x < right; ++x) note(x, y, first[x * grid.along + y * grid.across].z);
+                        for (int x = left; x < right; ++x) set(x, y);
                 }
             }
-            ranges[from / square] = {low, high};
         });
-        least = ranges.front().x, greatest = ranges.front().y;
-        for (const glm::vec2& r : ranges) {
-            least = (std::min)(least, r.x);
-            greatest = (std::max)(greatest, r.y);
-        }
     }
     const float* column(int x) const { return u.data() + static_cast<std::ptrdiff_t>(x) * pitch + around; }
     float* column(int x) { return u.data() + static_cast<std::ptrdiff_t>(x) * pitch + around; }

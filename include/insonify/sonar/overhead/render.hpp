@@ -53,8 +53,8 @@ class overhead_painter {
                 options_.shadow.build(std::span<const shadow::caster>(casters), light_in_rig(view_), bounds, ex);
             const auto known = settle_triangles(occlusion, ex);
             draw_all(ex);
-            shadow_pass<Labels>(view_, surfaces_, {ids_, undecided_, out_.image, out_.labels}, targets_.size(),
-                                options_.tile, options_.level)
+            shadow_pass<Labels>(view_, surfaces_, {undecided_, out_.image, out_.labels}, targets_.size(), options_.tile,
+                                options_.level)
                 .cast(occlusion, ex);
         } else {
             draw_all(ex);
@@ -181,13 +181,12 @@ class overhead_painter {
         image<float> depth(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
         shaded_images into{out_.image};
         if constexpr (casts) {
-            undecided_ = {pixel_marks(rig.size.x, rig.size.y, memory_of(ex)),
-                          image<float>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex)), labelled};
+            undecided_ = undecided_light(rig.size.x, rig.size.y, options_.tile, memory_of(ex));
             into.undecided = &undecided_;
-            into.has_all_ids = labelled;
+            into.marks_dark = labelled;
             if constexpr (labelled) into.shadow = &out_.labels.shadow;
         }
-        if constexpr (casts || labelled) {
+        if constexpr (labelled) {
             ids_ = image<std::uint32_t>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
             into.ids = &ids_;
         }

@@ -25,6 +25,7 @@ struct point_batch {
     uninitialized_array<double> x, y, z;
     uninitialized_array<std::uint32_t> mesh, triangle;
     uninitialized_array<std::uint32_t> pixel;  ///< of the picture
+    uninitialized_array<float> direct;         ///< light that arrives there if nothing blocks it
 
     explicit point_batch(std::size_t count, const shared_pool& memory = {})
         : x(count, memory),
@@ -32,7 +33,8 @@ struct point_batch {
           z(count, memory),
           mesh(count, memory),
           triangle(count, memory),
-          pixel(count, memory) {}
+          pixel(count, memory),
+          direct(count, memory) {}
 
     shadow::points part(std::size_t first, std::size_t n) const {
         const auto some = [&](const auto& array) { return std::span(array).subspan(first, n); };
@@ -53,12 +55,13 @@ class point_list {
     std::size_t size() const { return facing + averted; }
     shadow::points facing_points() const { return room_->part(first_, facing); }
     shadow::points averted_points() const { return room_->part(last_ - averted, averted); }
-    /// The pixel and the caster of a point; facing ones are counted first.
+    /// The pixel, its light and the caster of a point; facing ones are counted first.
     std::size_t pixel(std::size_t point) const { return room_->pixel[at(point)]; }
+    float direct(std::size_t point) const { return room_->direct[at(point)]; }
     std::uint32_t caster(std::size_t point) const { return room_->mesh[at(point)]; }
 
     INSONIFY_INLINE void add(bool is_facing, double x, double y, double z, std::uint32_t mesh, std::uint32_t triangle,
-                             std::uint32_t pixel) {
+                             std::uint32_t pixel, float direct) {
         const std::size_t to = is_facing ? first_ + facing++ : last_ - ++averted;
         room_->x[to] = x;
         room_->y[to] = y;
@@ -66,6 +69,7 @@ class point_list {
         room_->mesh[to] = mesh;
         room_->triangle[to] = triangle;
         room_->pixel[to] = pixel;
+        room_->direct[to] = direct;
     }
 
   private:
@@ -99,6 +103,7 @@ struct point_finder {
 struct shown_pixel {
     std::uint16_t column, row;  ///< within the tile
     std::uint32_t triangle;
+    float direct;  ///< see point_batch
 };
 
 /// Finds the points of some pixels of one object.
@@ -114,10 +119,25 @@ struct point_kernel {
     template <int Width>
     INSONIFY_INLINE void run() const {
         constexpr int N = Width > 1 ? Width / 2 : 1;
-        for (std::size_t i = 0; i < pixels.size(); i += N) find<N>(i, (std::min)(pixels.size() - i, std::size_t{N}));
+        for (std::size_t i = 0; i < pixels.size(); i += N) {
+            prefetch_ahead<N>(i);
+            find<N>(i, (std::min)(pixels.size() - i, std::size_t{N}));
+        }
     }
 
   private:
+    /// Prefetches the triangles of pixels a few rounds ahead of `i`, and the vertices of those fetched before.
+    template <int N>
+    INSONIFY_INLINE void prefetch_ahead(std::size_t i) const {
+        const mesh_view& m = from.object->mesh;
+        const auto some = [&](int rounds) {
+            const std::size_t first = (std::min)(i + static_cast<std::size_t>(rounds * N), pixels.size());
+            return pixels.subspan(first, (std::min)(pixels.size() - first, std::size_t{N}));
+        };
+        for (const shown_pixel& p : some(4)) prefetch(&m.triangles[p.triangle]);
+        for (const shown_pixel& p : some(2))
+            for (int k = 0; k < 3; ++k) prefetch(&m.positions[m.triangles[p.triangle][k]]);
+    }
     template <class Reals>
     INSONIFY_INLINE static void cross(Reals (&into)[3], const Reals (&a)[3], const Reals (&b)[3]) {
         into[0] = a[1] * b[2] - b[1] * a[2];
@@ -224,7 +244,8 @@ struct point_kernel {
             const shown_pixel& shown = pixels[start + k];
             points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], s.caster, shown.triangle,
                        static_cast<std::uint32_t>(box.y0 + shown.row) * pitch +
-                           static_cast<std::uint32_t>(box.x0 + shown.column));
+                           static_cast<std::uint32_t>(box.x0 + shown.column),
+                       shown.direct);
         }
     }
 

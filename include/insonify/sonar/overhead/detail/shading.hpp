@@ -83,16 +83,16 @@ struct surface {
 struct shaded_images {
     image<float>& picture;
     undecided_light* undecided = nullptr;    ///< if there is a shadow policy
+    bool marks_dark = false;                 ///< pixels that the source cannot light are undecided too, for labels
     image<std::uint32_t>* ids = nullptr;     ///< the visibility buffer
-    bool has_all_ids = true;                 ///< false: ids are stored only where light is undecided
     image<std::uint8_t>* types = nullptr;    ///< seabed::type, of bottoms of several types
     image<std::uint16_t>* shadow = nullptr;  ///< labels of known casters, as in labels::shadow
 
     void clear(const rect& tile) const {
-        if (undecided != nullptr) undecided->marks.clear(tile);
+        if (undecided != nullptr) undecided->clear(tile);
         for (int y = tile.y0; y < tile.y1; ++y) {
             std::fill_n(&picture(tile.x0, y), tile.width(), 0.0f);
-            if (ids != nullptr && has_all_ids) std::fill_n(&(*ids)(tile.x0, y), tile.width(), shadow::invalid_id);
+            if (ids != nullptr) std::fill_n(&(*ids)(tile.x0, y), tile.width(), shadow::invalid_id);
         }
     }
 };
@@ -153,28 +153,26 @@ class surface_shader {
         const floats rest = reflectivity * (sky * (0.5f * (1.0f + turned * normal[2])) + ambient);
         const floats one = floats{} + 1.0f, sum = rest + direct;
         const floats all = sum < one ? sum : one;
-        bool has_undecided = false;
         if (into_.undecided == nullptr)
             f.store(into_.picture, all);
         else
-            has_undecided = store_known<N>(f, all, rest, direct);
-        if (into_.ids == nullptr || !(into_.has_all_ids || has_undecided)) return;
+            store_known<N>(f, all, rest, direct);
+        if (into_.ids == nullptr) return;
         lanes<std::uint32_t, N> ids;
         load(ids, f.triangles);
         f.store(*into_.ids, lanes<std::uint32_t, N>(ids + object_.first_id));
     }
 
   private:
-    /// Stores the light of pixels whose triangles are known to be lit or dark, and marks the others as undecided.
+    /// Stores the light of pixels whose triangles are known to be lit or dark, and lists the others as undecided.
     /// @param all  light if nothing blocks the source
-    /// @returns whether any is undecided
     template <int N>
-    INSONIFY_INLINE bool store_known(const fragment_lanes<N, surface_varyings>& f, const lanes<float, N>& all,
+    INSONIFY_INLINE void store_known(const fragment_lanes<N, surface_varyings>& f, const lanes<float, N>& all,
                                      const lanes<float, N>& rest, const lanes<float, N>& direct) const {
         using ints = lanes<std::int32_t, N>;
         using floats = lanes<float, N>;
         floats value = rest < 1.0f ? rest : floats{} + 1.0f;
-        ints undecided = into_.undecided->has_dark ? ints{} - 1 : ints(direct > 0.0f), is_dark{};
+        ints undecided = into_.marks_dark ? ints{} - 1 : ints(direct > 0.0f), is_dark{};
         if (object_.known != nullptr) {
             ints known;
             gather<N>(known, [&](int k) { return static_cast<std::int32_t>(object_.known[f.triangles[k]]); });
@@ -190,11 +188,8 @@ class surface_shader {
             f.store(*into_.shadow, caster);
         }
         static_assert(N <= 8);
-        const unsigned which = movemask<N>(f.visible), marks = movemask<N>(undecided) & which;
-        into_.undecided->marks.set(f.x, f.y, which, marks);
-        if (marks == 0) return false;
-        f.store(into_.undecided->direct, direct);
-        return true;
+        const unsigned which = movemask<N>(f.visible);
+        into_.undecided->set<N>(f.x, f.y, which, movemask<N>(undecided) & which, f.triangles, object_.first_id, direct);
     }
 
     /// Replaces normals that are zero or not finite by the facet's.

@@ -28,9 +28,8 @@ template <class Labels>
 class shadow_pass {
   public:
     struct images {
-        const image<std::uint32_t>& ids;  ///< the visibility buffer of the surfaces, where light is undecided
-        undecided_light& undecided;       ///< screening clears the marks of pixels that it decides
-        image<float>& picture;            ///< the light that arrives is added
+        undecided_light& undecided;
+        image<float>& picture;  ///< the light that arrives is added
         Labels& marks;
     };
 
@@ -57,9 +56,8 @@ class shadow_pass {
         bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
             scratch room(surfaces_.size(), tile_pixels_);
             for (std::size_t i = first; i < last; ++i) {
-                const rect box = box_of(i);
                 point_list points(room.points, 0, tile_pixels_);
-                find_points(box, room.shown, points);
+                find_points(i, room.shown, points);
                 const shadow::results light = room.light.part(0, points.size());
                 for_each_batch(points, light, targets_, [&](const shadow::points& p, const shadow::results& s) {
                     if constexpr (is_collective)
@@ -68,7 +66,7 @@ class shadow_pass {
                         occlusion.test(p, s);
                 });
                 finish(points, light);
-                if constexpr (is_collective) unknown[i] = mark_unknown(box, points, light);
+                if constexpr (is_collective) unknown[i] = mark_unknown(points, light);
             }
         });
         if constexpr (is_collective) test_together(occlusion, unknown, ex);
@@ -91,16 +89,14 @@ class shadow_pass {
         return tiles_.pixels(tile, images_.picture.width(), images_.picture.height());
     }
     /// The points of a tile whose light is undecided.
-    void find_points(const rect& box, shown_by_surface& shown, point_list& into) {
+    void find_points(std::size_t tile, shown_by_surface& shown, point_list& into) {
         const surface* last = surfaces_.data();
-        for (int y = box.y0; y < box.y1; ++y)
-            images_.undecided.marks.for_each(box.x0, box.x1, y, [&](int x) {
-                const std::uint32_t id = images_.ids(x, y);
-                if (id - last->first_id >= last->mesh.triangles.size()) last = &surface_of(surfaces_, id);
-                shown[static_cast<std::size_t>(last - surfaces_.data())].push_back(
-                    {static_cast<std::uint16_t>(x - box.x0), static_cast<std::uint16_t>(y - box.y0),
-                     id - last->first_id});
-            });
+        images_.undecided.take(tile, [&](const undecided_pixel& p) {
+            if (p.id - last->first_id >= last->mesh.triangles.size()) last = &surface_of(surfaces_, p.id);
+            shown[static_cast<std::size_t>(last - surfaces_.data())].push_back(
+                {p.column, p.row, p.id - last->first_id, p.direct});
+        });
+        const rect box = box_of(tile);
         for (std::size_t i = 0; i < finders_.size(); ++i) {
             if (shown[i].empty()) continue;
             dispatch(point_kernel{finders_[i], shown[i], view_.has_near_light(), labelled, box,
@@ -110,17 +106,15 @@ class shadow_pass {
         }
     }
 
-    /// Leaves marks on the pixels of a tile that screening does not decide.
+    /// Marks the pixels that screening does not decide.
     /// @returns their number
-    std::size_t mark_unknown(const rect& box, const point_list& points, const shadow::results& light) {
+    std::size_t mark_unknown(const point_list& points, const shadow::results& light) {
         const auto width = static_cast<std::size_t>(images_.picture.width());
-        pixel_marks& marks = images_.undecided.marks;
-        marks.clear(box);
         std::size_t count = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (light.lit[i] != shadow::unknown) continue;
             const std::size_t pixel = points.pixel(i);
-            marks.set(static_cast<int>(pixel % width), static_cast<int>(pixel / width));
+            images_.undecided.mark(static_cast<int>(pixel % width), static_cast<int>(pixel / width));
             ++count;
         }
         return count;
@@ -142,7 +136,8 @@ class shadow_pass {
         for (std::size_t i = 0; i + 1 < starts.size(); ++i) lists.emplace_back(all, starts[i], starts[i + 1]);
         bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
             shown_by_surface shown(surfaces_.size());
-            for (std::size_t i = first; i < last; ++i) find_points(box_of(i), shown, lists[first / run_]);
+            for (std::size_t i = first; i < last; ++i)
+                if (unknown[i] > 0) find_points(i, shown, lists[first / run_]);
         });
         const auto part = [&](std::size_t i) { return light.part(starts[i], lists[i].size()); };
         std::vector<shadow::points> at;
@@ -158,15 +153,17 @@ class shadow_pass {
 
     void finish(const point_list& points, const shadow::results& light) {
         for (std::size_t i = 0; i < points.size(); ++i)
-            finish(points.pixel(i), i < points.facing, points.caster(i), light.lit[i], light.caster[i]);
+            finish(points.pixel(i), points.direct(i), i < points.facing, points.caster(i), light.lit[i],
+                   light.caster[i]);
     }
     /// Adds the light that arrives at a pixel, and labels its shadow, see light_pass.hpp.
+    /// @param direct  light that arrives if nothing blocks it
     /// @param own     the caster that the point lies on
     /// @param caster  the caster that blocks its light
-    void finish(std::size_t pixel, bool is_facing, std::uint32_t own, float lit, std::uint32_t caster) {
+    void finish(std::size_t pixel, float direct, bool is_facing, std::uint32_t own, float lit, std::uint32_t caster) {
         if (is_facing && lit > 0.0f) {
             float& value = images_.picture.pixels()[pixel];
-            value = (std::min)(1.0f, value + lit * images_.undecided.direct.pixels()[pixel]);
+            value = (std::min)(1.0f, value + lit * direct);
         }
         if constexpr (labelled) {
             if (is_facing && !(lit < 0.5f)) return;

@@ -1,12 +1,18 @@
-// Input of the shadow pass: which pixels' light is undecided, and how much may arrive there.
+// Input of the shadow pass: the pixels whose light is undecided, and how much may arrive there.
 #pragma once
 
+#include <insonify/core/detail/uninitialized.hpp>
 #include <insonify/core/image.hpp>
 #include <insonify/core/rect.hpp>
+#include <insonify/core/simd/lanes.hpp>
+#include <insonify/raster/detail/binning.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <vector>
+
+#include <glm/vec2.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -32,24 +38,120 @@ class pixel_marks {
         byte = static_cast<std::uint8_t>((byte & ~(which << x % 8)) | (marks & which) << x % 8);
     }
     void set(int x, int y) { set(x, y, 1, 1); }
-    /// Calls visit(x) for each marked pixel of a row, from x0 to x1, which are multiples of 8 or the row's end.
-    template <class Visit>
-    void for_each(int x0, int x1, int y, const Visit& visit) const {
-        for (int x = x0; x < x1; x += 8)
-            for (unsigned left = bytes_(x / 8, y); left != 0; left &= left - 1) visit(x + std::countr_zero(left));
+    /// Clears a mark.
+    /// @returns whether it was set
+    bool take(int x, int y) {
+        std::uint8_t& byte = bytes_(x / 8, y);
+        const unsigned bit = 1u << x % 8, before = byte;
+        byte = static_cast<std::uint8_t>(before & ~bit);
+        return (before & bit) != 0;
     }
 
   private:
     image<std::uint8_t> bytes_;
 };
 
-/// Output of shading for the shadow pass.
+struct undecided_pixel {
+    std::uint16_t column, row;  ///< within the tile
+    std::uint32_t id;           ///< in the visibility buffer
+    float direct;               ///< light that the source adds if nothing blocks it
+};
+
+/// Output of shading for the shadow pass: a list for each tile, as few pixels are undecided.
 ///
-/// A pixel whose triangle is known to be lit gets all its light at once, any other its sky and ambient light.
-struct undecided_light {
-    pixel_marks marks;      ///< pixels whose light is undecided
-    image<float> direct;    ///< light that the source adds to them if nothing blocks it
-    bool has_dark = false;  ///< whether pixels without such light are marked too, to label their shadows
+/// A pixel whose triangle is known to be lit gets all its light at once, any other its sky and ambient light. A surface
+/// that is drawn over another leaves the other's pixels in the lists: the last one of a marked pixel counts.
+class undecided_light {
+  public:
+    undecided_light() = default;
+    /// @param tile  pixels, a power of 2
+    undecided_light(int width, int height, int tile, const shared_pool& memory)
+        : tiles_(width, height, std::countr_zero(static_cast<unsigned>(tile))), marks_(width, height, memory) {
+        std::size_t start = 0;
+        for (std::size_t i = 0; i < tiles_.count(); ++i) {
+            // More than the tile's pixels, so that hidden ones are rarely looked for.
+            const rect box = tiles_.pixels(i, width, height);
+            const auto shown = static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height());
+            lists_.push_back({start, 0, shown + shown / 4 + 8});
+            start += lists_.back().room;
+        }
+        pixels_ = uninitialized_array<undecided_pixel>(start, memory);
+    }
+
+    /// Empties the list of a tile.
+    void clear(const rect& tile) {
+        marks_.clear(tile);
+        lists_[tile_of(tile.x0, tile.y0)].count = 0;
+    }
+
+    /// Replaces some of N pixels of a row, whose marks lie in one byte.
+    /// @param which      pixels that are shaded, bit by bit
+    /// @param undecided  those of them whose light is undecided
+    template <int N>
+    INSONIFY_INLINE void set(int x, int y, unsigned which, unsigned undecided,
+                             const std::uint32_t (&triangles)[static_cast<unsigned>(N)], std::uint32_t first_id,
+                             const lanes<float, N>& direct) {
+        marks_.set(x, y, which, 0);
+        if (undecided == 0) return;
+        const std::size_t tile = tile_of(x, y);
+        list& into = lists_[tile];
+        if (into.count + N > into.room) remove_hidden(tile);
+        marks_.set(x, y, undecided, undecided);
+        float values[static_cast<unsigned>(N)];
+        store(values, direct);
+        const int mask = (1 << tiles_.log2_size) - 1;
+        for (unsigned left = undecided; left != 0; left &= left - 1) {
+            const int k = std::countr_zero(left);
+            pixels_[into.start + into.count++] = {static_cast<std::uint16_t>((x + k) & mask),
+                                                  static_cast<std::uint16_t>(y & mask), first_id + triangles[k],
+                                                  values[k]};
+        }
+    }
+
+    /// Marks a pixel of a list again.
+    void mark(int x, int y) { marks_.set(x, y); }
+
+    /// Calls visit(pixel) for each undecided pixel of a tile and clears its mark.
+    template <class Visit>
+    void take(std::size_t tile, const Visit& visit) {
+        const list& from = lists_[tile];
+        const glm::ivec2 corner = corner_of(tile);
+        for (std::size_t i = from.count; i-- > 0;) {
+            const undecided_pixel& p = pixels_[from.start + i];
+            if (marks_.take(corner.x + p.column, corner.y + p.row)) visit(p);
+        }
+    }
+
+  private:
+    /// Of the pixels of a tile.
+    struct list {
+        std::size_t start, count, room;
+    };
+
+    std::size_t tile_of(int x, int y) const {
+        return static_cast<std::size_t>(y >> tiles_.log2_size) * static_cast<std::size_t>(tiles_.columns) +
+               static_cast<std::size_t>(x >> tiles_.log2_size);
+    }
+    glm::ivec2 corner_of(std::size_t tile) const {
+        const auto columns = static_cast<std::size_t>(tiles_.columns);
+        return {static_cast<int>(tile % columns) << tiles_.log2_size, static_cast<int>(tile / columns)
+                                                                          << tiles_.log2_size};
+    }
+    /// Leaves only pixels in a list that count.
+    INSONIFY_RARE void remove_hidden(std::size_t tile) {
+        list& of = lists_[tile];
+        undecided_pixel* const start = pixels_.data() + of.start;
+        undecided_pixel *const end = start + of.count, *last = end;
+        take(tile, [&](const undecided_pixel p) { *--last = p; });
+        of.count = static_cast<std::size_t>(std::copy(last, end, start) - start);
+        const glm::ivec2 corner = corner_of(tile);
+        for (std::size_t i = 0; i < of.count; ++i) mark(corner.x + start[i].column, corner.y + start[i].row);
+    }
+
+    tile_grid tiles_{0, 0, 0};
+    pixel_marks marks_;
+    uninitialized_array<undecided_pixel> pixels_;
+    std::vector<list> lists_;  ///< by tile
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
