@@ -14482,18 +14482,39 @@ class horizon_bounds {
         });
     }
 
-    /// @param p  on the mesh, on a side that faces the light, in the mesh's frame
-    INSONIFY_INLINE known at(const glm::dvec3& p) const {
-        const glm::dvec2 at = grid_.steps(glm::dvec2(p));
-        const double x = at.x, y = at.y;
-        if (!(x >= 0 && x <= grid_.columns - 1)) return known::nothing;
-        const auto column = static_cast<int>(x);
-        const int strip = static_cast<int>(y - grid_.slope * x - first_strip_);
-        if (!has_strip(strip)) return known::nothing;
-        const horizon_bound b = bound(column, strip);
-        const double u = x + grid_.drop * p.z;
-        if (u < static_cast<double>(b.dark_below) - margin_) return known::dark;
-        return u > static_cast<double>(b.lit_above) + margin_ ? known::lit : known::nothing;
+    /// Decides N points.
+    /// @param p  x, y and z: on the mesh, on a side that faces the light, in the mesh's frame
+    template <int N>
+    INSONIFY_INLINE void decide(insonify::detail::lanes<std::int64_t, N>& answer,
+                                const insonify::detail::lanes<double, N> (&p)[3]) const {
+        using namespace insonify::detail;
+        using reals = lanes<double, N>;
+        using bits = lanes<std::int64_t, N>;
+        const reals dx = p[0] - grid_.origin.x, dy = p[1] - grid_.origin.y;
+        reals x = grid_.x_of.x * dx + grid_.x_of.y * dy;
+        reals strip = grid_.y_of.x * dx + grid_.y_of.y * dy - grid_.slope * x - static_cast<double>(first_strip_);
+        const bits exists = bits(x >= 0.0) & bits(x <= static_cast<double>(grid_.columns - 1)) & bits(strip >= 0.0) &
+                            bits(strip < static_cast<double>(strips_));
+        const reals u = x + grid_.drop * p[2];
+        x = exists ? x : reals{};
+        strip = exists ? strip : reals{};
+        reals dark, lit;
+        const auto at = [&](int k, const float* start) {
+            const std::ptrdiff_t column = static_cast<int>(lane(x, k)), row = static_cast<int>(lane(strip, k));
+            return static_cast<double>(start[column * 2 * strips_ + row]);
+        };
+        gather<N>(dark, [&](int k) { return at(k, dark_below(0)); });
+        gather<N>(lit, [&](int k) { return at(k, lit_above(0)); });
+        const bits is_dark = exists & bits(u < dark - margin_), is_lit = exists & bits(u > lit + margin_);
+        answer = is_lit ? bits{} + static_cast<std::int64_t>(known::lit)
+                        : bits{} + static_cast<std::int64_t>(known::nothing);
+        answer = is_dark ? bits{} + static_cast<std::int64_t>(known::dark) : answer;
+    }
+    /// The same of one point.
+    known at(const glm::dvec3& p) const {
+        std::int64_t answer;
+        decide<1>(answer, {p.x, p.y, p.z});
+        return static_cast<known>(answer);
     }
 
     const lit_grid& grid() const { return grid_; }
@@ -15119,6 +15140,12 @@ class grid_caster {
           bounds_(mesh_, c.box, *c.grid, travel_, level, ex),
           blocks_(bounds_.grid(), bounds_.heights(), level, ex) {}
 
+    /// Decides some of its own points that face the light, in the frame of the light, as far as the bounds of its
+    /// horizon do.
+    /// @param into  of the first
+    void decide_own(const points& at, std::size_t first, std::size_t last, known* into, isa level) const {
+        insonify::detail::dispatch(kernel{*this, at, first, last, into}, level);
+    }
     /// Whether it blocks the light of one of its own points that faces the light.
     /// @param p       in the frame of the light
     /// @param decide  decide(triangle): whether that blocks it, in doubles; not for the point's own
@@ -15143,6 +15170,34 @@ class grid_caster {
     const lit_grid& grid() const { return bounds_.grid(); }
 
   private:
+    struct kernel {
+        const grid_caster& caster;
+        const points& at;
+        std::size_t first, last;
+        known* into;
+
+        template <int Width>
+        INSONIFY_INLINE void run() const {
+            constexpr int N = Width > 1 ? Width / 2 : 1;
+            std::size_t i = first;
+            for (; i + N <= last; i += N) decide<N>(i);
+            for (; i < last; ++i) decide<1>(i);
+        }
+        template <int N>
+        INSONIFY_INLINE void decide(std::size_t i) const {
+            using namespace insonify::detail;
+            lanes<double, N> x, y, z, p[3];
+            load(x, at.x.data() + i), load(y, at.y.data() + i), load(z, at.z.data() + i);
+            const affine& m = caster.to_mesh_;
+            for (int k = 0; k < 3; ++k)
+                p[k] = m.linear[0][k] * x + m.linear[1][k] * y + m.linear[2][k] * z + m.offset[k];
+            lanes<std::int64_t, N> answers;
+            caster.bounds_.decide<N>(answers, p);
+            for (int k = 0; k < N; ++k)
+                into[i - first + static_cast<std::size_t>(k)] = static_cast<known>(lane(answers, k));
+        }
+    };
+
     mesh_view mesh_;
     affine to_mesh_;
     glm::dvec3 travel_;  ///< of the light, in the mesh's frame
@@ -16004,17 +16059,10 @@ class exact_occlusion {
         std::fill(into.caster.begin(), into.caster.end(), invalid_id);
         if (planes_.empty()) return std::fill(into.lit.begin(), into.lit.end(), 1.0f);
         if (planes_.are_near()) return std::fill(into.lit.begin(), into.lit.end(), unknown);
-        const detail::tiled_plane& state = planes_.front();
-        for (std::size_t i = 0; i < at.size(); ++i) {
-            const std::uint32_t occupant = state.occupant[state.tile_of(state.plane(at[i]))];
-            into.lit[i] = unknown;
-            if (occupant == no_caster || (occupant != several_casters && occupant >= at.casters)) {
-                into.lit[i] = 1;
-            } else if (occupant == at.mesh[i] && grids_[occupant]) {
-                const bool is_dark = is_blocked_by_grid(occupant, at, i);
-                into.lit[i] = is_dark ? 0.0f : 1.0f;
-                if (is_dark) into.caster[i] = occupant;
-            }
+        for (std::size_t first = 0, last = 0; first < at.size(); first = last) {
+            const std::size_t end = (std::min)(first + screened_together, at.size());
+            for (last = first + 1; last < end && at.mesh[last] == at.mesh[first];) ++last;
+            screen(at, first, last, into);
         }
     }
 
@@ -16088,6 +16136,28 @@ class exact_occlusion {
     }
     /// Whether a caster is a grid that needs no list of triangles under parallel light.
     static bool is_swept(const caster& c) { return c.grid != nullptr && c.may_skip == skip::facing_its_own; }
+    static constexpr std::size_t screened_together = 256;
+    /// Screens points of one mesh, of parallel light.
+    void screen(const points& at, std::size_t first, std::size_t last, const results& into) const {
+        const std::uint32_t own = at.mesh[first];
+        const bool is_grid = own < grids_.size() && grids_[own];
+        known answers[screened_together];
+        std::fill_n(answers, last - first, known::nothing);
+        if (is_grid && at.face_light) grids_[own]->decide_own(at, first, last, answers, level_);
+        const detail::tiled_plane& state = planes_.front();
+        for (std::size_t i = first; i < last; ++i) {
+            const std::uint32_t occupant = state.occupant[state.tile_of(state.plane(at[i]))];
+            into.lit[i] = unknown;
+            if (occupant == no_caster || (occupant != several_casters && occupant >= at.casters)) {
+                into.lit[i] = 1;
+            } else if (occupant == own && is_grid) {
+                const known answer = answers[i - first];
+                const bool is_dark = answer == known::nothing ? is_blocked_by_grid(own, at, i) : answer == known::dark;
+                into.lit[i] = is_dark ? 0.0f : 1.0f;
+                into.caster[i] = is_dark ? own : invalid_id;
+            }
+        }
+    }
     /// Whether caster `number` blocks the light of a point.
     bool is_blocked_by_grid(std::uint32_t number, const points& at, std::size_t i) const {
         const bool is_own = at.mesh[i] == number;

@@ -53,17 +53,10 @@ class exact_occlusion {
         std::fill(into.caster.begin(), into.caster.end(), invalid_id);
         if (planes_.empty()) return std::fill(into.lit.begin(), into.lit.end(), 1.0f);
         if (planes_.are_near()) return std::fill(into.lit.begin(), into.lit.end(), unknown);
-        const detail::tiled_plane& state = planes_.front();
-        for (std::size_t i = 0; i < at.size(); ++i) {
-            const std::uint32_t occupant = state.occupant[state.tile_of(state.plane(at[i]))];
-            into.lit[i] = unknown;
-            if (occupant == no_caster || (occupant != several_casters && occupant >= at.casters)) {
-                into.lit[i] = 1;
-            } else if (occupant == at.mesh[i] && grids_[occupant]) {
-                const bool is_dark = is_blocked_by_grid(occupant, at, i);
-                into.lit[i] = is_dark ? 0.0f : 1.0f;
-                if (is_dark) into.caster[i] = occupant;
-            }
+        for (std::size_t first = 0, last = 0; first < at.size(); first = last) {
+            const std::size_t end = (std::min)(first + screened_together, at.size());
+            for (last = first + 1; last < end && at.mesh[last] == at.mesh[first];) ++last;
+            screen(at, first, last, into);
         }
     }
 
@@ -137,6 +130,28 @@ class exact_occlusion {
     }
     /// Whether a caster is a grid that needs no list of triangles under parallel light.
     static bool is_swept(const caster& c) { return c.grid != nullptr && c.may_skip == skip::facing_its_own; }
+    static constexpr std::size_t screened_together = 256;
+    /// Screens points of one mesh, of parallel light.
+    void screen(const points& at, std::size_t first, std::size_t last, const results& into) const {
+        const std::uint32_t own = at.mesh[first];
+        const bool is_grid = own < grids_.size() && grids_[own];
+        known answers[screened_together];
+        std::fill_n(answers, last - first, known::nothing);
+        if (is_grid && at.face_light) grids_[own]->decide_own(at, first, last, answers, level_);
+        const detail::tiled_plane& state = planes_.front();
+        for (std::size_t i = first; i < last; ++i) {
+            const std::uint32_t occupant = state.occupant[state.tile_of(state.plane(at[i]))];
+            into.lit[i] = unknown;
+            if (occupant == no_caster || (occupant != several_casters && occupant >= at.casters)) {
+                into.lit[i] = 1;
+            } else if (occupant == own && is_grid) {
+                const known answer = answers[i - first];
+                const bool is_dark = answer == known::nothing ? is_blocked_by_grid(own, at, i) : answer == known::dark;
+                into.lit[i] = is_dark ? 0.0f : 1.0f;
+                into.caster[i] = is_dark ? own : invalid_id;
+            }
+        }
+    }
     /// Whether caster `number` blocks the light of a point.
     bool is_blocked_by_grid(std::uint32_t number, const points& at, std::size_t i) const {
         const bool is_own = at.mesh[i] == number;

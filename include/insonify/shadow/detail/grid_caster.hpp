@@ -21,6 +21,12 @@ class grid_caster {
           bounds_(mesh_, c.box, *c.grid, travel_, level, ex),
           blocks_(bounds_.grid(), bounds_.heights(), level, ex) {}
 
+    /// Decides some of its own points that face the light, in the frame of the light, as far as the bounds of its
+    /// horizon do.
+    /// @param into  of the first
+    void decide_own(const points& at, std::size_t first, std::size_t last, known* into, isa level) const {
+        insonify::detail::dispatch(kernel{*this, at, first, last, into}, level);
+    }
     /// Whether it blocks the light of one of its own points that faces the light.
     /// @param p       in the frame of the light
     /// @param decide  decide(triangle): whether that blocks it, in doubles; not for the point's own
@@ -45,6 +51,34 @@ class grid_caster {
     const lit_grid& grid() const { return bounds_.grid(); }
 
   private:
+    struct kernel {
+        const grid_caster& caster;
+        const points& at;
+        std::size_t first, last;
+        known* into;
+
+        template <int Width>
+        INSONIFY_INLINE void run() const {
+            constexpr int N = Width > 1 ? Width / 2 : 1;
+            std::size_t i = first;
+            for (; i + N <= last; i += N) decide<N>(i);
+            for (; i < last; ++i) decide<1>(i);
+        }
+        template <int N>
+        INSONIFY_INLINE void decide(std::size_t i) const {
+            using namespace insonify::detail;
+            lanes<double, N> x, y, z, p[3];
+            load(x, at.x.data() + i), load(y, at.y.data() + i), load(z, at.z.data() + i);
+            const affine& m = caster.to_mesh_;
+            for (int k = 0; k < 3; ++k)
+                p[k] = m.linear[0][k] * x + m.linear[1][k] * y + m.linear[2][k] * z + m.offset[k];
+            lanes<std::int64_t, N> answers;
+            caster.bounds_.decide<N>(answers, p);
+            for (int k = 0; k < N; ++k)
+                into[i - first + static_cast<std::size_t>(k)] = static_cast<known>(lane(answers, k));
+        }
+    };
+
     mesh_view mesh_;
     affine to_mesh_;
     glm::dvec3 travel_;  ///< of the light, in the mesh's frame

@@ -180,18 +180,39 @@ class horizon_bounds {
         });
     }
 
-    /// @param p  on the mesh, on a side that faces the light, in the mesh's frame
-    INSONIFY_INLINE known at(const glm::dvec3& p) const {
-        const glm::dvec2 at = grid_.steps(glm::dvec2(p));
-        const double x = at.x, y = at.y;
-        if (!(x >= 0 && x <= grid_.columns - 1)) return known::nothing;
-        const auto column = static_cast<int>(x);
-        const int strip = static_cast<int>(y - grid_.slope * x - first_strip_);
-        if (!has_strip(strip)) return known::nothing;
-        const horizon_bound b = bound(column, strip);
-        const double u = x + grid_.drop * p.z;
-        if (u < static_cast<double>(b.dark_below) - margin_) return known::dark;
-        return u > static_cast<double>(b.lit_above) + margin_ ? known::lit : known::nothing;
+    /// Decides N points.
+    /// @param p  x, y and z: on the mesh, on a side that faces the light, in the mesh's frame
+    template <int N>
+    INSONIFY_INLINE void decide(insonify::detail::lanes<std::int64_t, N>& answer,
+                                const insonify::detail::lanes<double, N> (&p)[3]) const {
+        using namespace insonify::detail;
+        using reals = lanes<double, N>;
+        using bits = lanes<std::int64_t, N>;
+        const reals dx = p[0] - grid_.origin.x, dy = p[1] - grid_.origin.y;
+        reals x = grid_.x_of.x * dx + grid_.x_of.y * dy;
+        reals strip = grid_.y_of.x * dx + grid_.y_of.y * dy - grid_.slope * x - static_cast<double>(first_strip_);
+        const bits exists = bits(x >= 0.0) & bits(x <= static_cast<double>(grid_.columns - 1)) & bits(strip >= 0.0) &
+                            bits(strip < static_cast<double>(strips_));
+        const reals u = x + grid_.drop * p[2];
+        x = exists ? x : reals{};
+        strip = exists ? strip : reals{};
+        reals dark, lit;
+        const auto at = [&](int k, const float* start) {
+            const std::ptrdiff_t column = static_cast<int>(lane(x, k)), row = static_cast<int>(lane(strip, k));
+            return static_cast<double>(start[column * 2 * strips_ + row]);
+        };
+        gather<N>(dark, [&](int k) { return at(k, dark_below(0)); });
+        gather<N>(lit, [&](int k) { return at(k, lit_above(0)); });
+        const bits is_dark = exists & bits(u < dark - margin_), is_lit = exists & bits(u > lit + margin_);
+        answer = is_lit ? bits{} + static_cast<std::int64_t>(known::lit)
+                        : bits{} + static_cast<std::int64_t>(known::nothing);
+        answer = is_dark ? bits{} + static_cast<std::int64_t>(known::dark) : answer;
+    }
+    /// The same of one point.
+    known at(const glm::dvec3& p) const {
+        std::int64_t answer;
+        decide<1>(answer, {p.x, p.y, p.z});
+        return static_cast<known>(answer);
     }
 
     const lit_grid& grid() const { return grid_; }
