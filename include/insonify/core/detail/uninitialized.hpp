@@ -64,6 +64,8 @@ class memory_block {
 template <class T>
 class uninitialized_array {
   public:
+    using value_type = T;  ///< spans of libc++ 14 are deduced from it
+
     INSONIFY_MEMBER uninitialized_array() noexcept {}
     INSONIFY_MEMBER explicit uninitialized_array(const shared_pool& pool) : memory_(pool) {}
     INSONIFY_MEMBER explicit uninitialized_array(std::size_t count, const shared_pool& pool = {})
