@@ -51,9 +51,10 @@ class pixel_marks {
     image<std::uint8_t> bytes_;
 };
 
+/// A pixel whose light is undecided, of one tile.
 struct undecided_pixel {
     std::uint16_t column, row;  ///< within the tile
-    std::uint32_t id;           ///< in the visibility buffer
+    std::uint32_t id;           ///< of its triangle, counted over all surfaces
     float direct;               ///< light that the source adds if nothing blocks it
 };
 
@@ -84,7 +85,8 @@ class undecided_light {
         lists_[tile_of(tile.x0, tile.y0)].count = 0;
     }
 
-    /// Replaces some of N pixels of a row, whose marks lie in one byte.
+    /// Lists the undecided ones of some of N pixels of a row, whose marks lie in one byte; what was known of the others
+    /// before does not count any more.
     /// @param which      pixels that are shaded, bit by bit
     /// @param undecided  those of them whose light is undecided
     template <int N>
