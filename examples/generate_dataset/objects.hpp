@@ -102,7 +102,7 @@ inline in::mesh ship_of(const object_form& f, in::random_sequence& draw) {
 inline in::mesh plane_of(const object_form& f, in::random_sequence& draw) {
     const auto length = static_cast<float>(f.length);
     in::aeroplane a{.length = length};
-    a.span = length * between(draw, 0.9, 1.6);
+    a.span = length * between(draw, 1.15, 1.6);
     a.fuselage_diameter = length * between(draw, 0.085, 0.15);
     a.root_chord = length * between(draw, 0.16, 0.3);
     a.tip_chord = a.root_chord * between(draw, 0.25, 0.75);
@@ -119,7 +119,7 @@ inline in::mesh plane_of(const object_form& f, in::random_sequence& draw) {
     a.fin_height = length * between(draw, 0.07, 0.16);
     a.engines = length < 12 ? 1 + static_cast<int>(draw.below(2)) : static_cast<int>(2 * (1 + draw.below(2)));
     a.propeller_diameter = draw.uniform() < 0.8 ? length * between(draw, 0.13, 0.25) : 0.0f;
-    a.is_inverted = draw.uniform() < 0.15;
+    a.is_inverted = draw.uniform() < 0.35;
     if (f.damage > 0.55) {
         a.port_wing = draw.uniform() < 0.5 ? 1.0f : between(draw, 0.1, 0.9);
         a.starboard_wing = draw.uniform() < 0.5 ? 1.0f : between(draw, 0.1, 0.9);

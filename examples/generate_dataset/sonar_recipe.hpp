@@ -73,6 +73,37 @@ struct sonar_plan {
 
 namespace detail {
 
+/// What objects of a kind look like where they are found, and what lies around them.
+struct found_objects {
+    double inspected = 0.15;             ///< share that a line runs along
+    double line_step = in::numeric::pi;  ///< angle between the headings that such lines choose from, radians
+    double on_side = 0;                  ///< share that lies on its side
+    double proud = 0.3, deepest = 0.55;  ///< share that isn't buried; burial of the others, at most
+    double brightest = 20;               ///< reflectivity, at most
+    double unscoured = 0.7;              ///< share without scour
+    double debris = 0.55;                ///< share with debris about it
+    range growth{0.5, 3.5};              ///< decibels
+    double greatest_drift = 2.5;         ///< of the bottom's tone, decibels
+};
+
+inline found_objects found_objects_of(const std::string& kind) {
+    // Hulls sink in. What they have gathered and scoured is of other sediment than the bottom, and their chips are
+    // large.
+    if (kind == "ship")
+        return {
+            .on_side = 0.15, .proud = 0.1, .brightest = 10, .debris = 0.85, .growth = {1.5, 5}, .greatest_drift = 4};
+    // Aeroplanes are light and flat: what is buried isn't found. Lines run along the fuselage or along the wings.
+    // Scour of their outline is too small to tell from wreckage.
+    if (kind == "plane")
+        return {.inspected = 0.6,
+                .line_step = in::numeric::pi / 2,
+                .proud = 0.9,
+                .deepest = 0.4,
+                .unscoured = 0.95,
+                .greatest_drift = 1.2};
+    return {};
+}
+
 /// Samples one object. The values of an unused object are sampled, too, so that those after it stay the same, and then
 /// dropped from the manifest.
 /// @param track  direction of the sonar's track, radians
@@ -87,20 +118,26 @@ inline placed_object sample_object(sampler& s, const std::string& prefix, const 
     if (prefix == "t1_" && s.given("t1_length_m") == nullptr && s.given("length_m") != nullptr)
         o.form.length = s.derived("t1_length_m", s.number_or("length_m", 0));
     o.form.damage = s.uniform(name("damage"), 0, 1);
+    const found_objects found = found_objects_of(kind);
     // Inspection lines run along a wreck; survey lines cross it at any angle.
-    const double along = s.chance(name("along_line"), kind == "ship" ? 0.35 : 0.15) ? 0.1 : 1.0;
-    o.yaw =
-        s.derived(name("yaw_rad"), track + along * s.uniform(name("heading_rad"), -in::numeric::pi, in::numeric::pi));
+    const bool is_inspected = s.chance(name("along_line"), found.inspected);
+    double heading = s.uniform(name("heading_rad"), -in::numeric::pi, in::numeric::pi);
+    if (is_inspected) {
+        const double along =
+            found.line_step * static_cast<double>(in::numeric::floor_to_int(heading / found.line_step + 0.5));
+        heading = along + (0.6 / found.line_step) * (heading - along);
+    }
+    o.yaw = s.derived(name("yaw_rad"), track + heading);
     o.pitch = s.uniform(name("pitch_rad"), -0.06, 0.06);
-    const bool on_side = s.chance(name("on_side"), kind == "ship" ? 0.15 : 0.0);
+    const bool on_side = s.chance(name("on_side"), found.on_side);
     o.roll = s.derived(name("roll_rad"),
                        on_side ? s.uniform(name("list_rad"), 0.9, 1.8) : s.uniform(name("list_rad"), -0.3, 0.3));
-    o.burial = s.uniform_or_0(name("burial"), 0.3, 0.02, kind == "ship" && o.form.damage > 0.5 ? 0.8 : 0.55);
-    o.reflectivity = s.logarithmic(name("reflectivity"), 1, 20);
+    const bool is_settled = kind == "ship" && o.form.damage > 0.5;
+    o.burial = s.uniform_or_0(name("burial"), found.proud, 0.02, is_settled ? 0.8 : found.deepest);
+    o.reflectivity = s.logarithmic(name("reflectivity"), 1, found.brightest);
     o.across = s.uniform(name("across"), place.across.low, place.across.high);
     o.along = s.uniform(name("along"), place.along.low, place.along.high);
-    // Scour follows the outline of a hull; that of an aeroplane is too small to tell from wreckage.
-    o.scour = s.uniform_or_0(name("scour"), kind == "plane" ? 0.95 : 0.7, 0.02, 0.15);
+    o.scour = s.uniform_or_0(name("scour"), found.unscoured, 0.02, 0.15);
     if (!used)
         for (const char* const what :
              {"form", "length_m", "damage", "along_line", "heading_rad", "yaw_rad", "pitch_rad", "on_side", "list_rad",
@@ -151,8 +188,9 @@ inline void sample_bottom(sampler& s, sonar_plan& p, double pixel, const view_of
     p.swell = s.uniform_or_0("swell", 0.45, 0.01, 0.08);
     p.trawls = s.uniform_or_0("trawls", 0.65, 0.3, 2);
 
-    p.tone.drift = static_cast<float>(
-        s.logarithmic("tone_drift_db", p.targets.empty() ? 0.1 : 0.05, p.targets.empty() ? 1.4 : 2.5));
+    const found_objects found = found_objects_of(p.class_name);
+    p.tone.drift = static_cast<float>(p.targets.empty() ? s.logarithmic("tone_drift_db", 0.1, 1.4)
+                                                        : s.logarithmic("tone_drift_db", 0.05, found.greatest_drift));
     p.tone.drift_length =
         static_cast<float>(s.derived("tone_drift_length_m", pixel * s.logarithmic("drift_px", 15, 120)));
     p.tone.streaks = static_cast<float>(s.uniform_or_0("tone_streaks_db", 0.7, 0.2, 1.1));
@@ -169,7 +207,7 @@ inline void sample_bottom(sampler& s, sonar_plan& p, double pixel, const view_of
     if (!s.chance("has_clutter", p.class_name == empty_class ? 0.1 : 0.3)) p.clutter = 0;
     // Debris lies around a wreck.
     p.debris = s.whole("debris", 3, 36);
-    if (!s.chance("has_debris", 0.55) || p.targets.empty()) p.debris = 0;
+    if (!s.chance("has_debris", found.debris) || p.targets.empty()) p.debris = 0;
     p.clutter_size = s.derived("clutter_size_m", pixel * s.uniform("clutter_px", 1.2, 4.5));
     p.clutter_seed = s.word("clutter_seed");
 }
@@ -178,7 +216,8 @@ inline void sample_look(const options& o, sampler& s, sonar_plan& p, double pixe
     p.facets = s.uniform("facets", 0, 6);
     p.facet_slope = s.uniform("facet_slope", 0.08, 0.3);
     p.volume_scatter = s.logarithmic("volume_scatter", 0.05, 0.8);
-    p.growth = s.uniform("growth_db", 0.5, 3.5);
+    const range growth = found_objects_of(p.class_name).growth;
+    p.growth = s.uniform("growth_db", growth.low, growth.high);
     p.growth_length = s.derived("growth_length_m", pixel * s.uniform("growth_px", 1.2, 4));
     p.growth_seed = s.word("growth_seed");
     p.pulse = s.derived(
