@@ -360,6 +360,20 @@ class Generator(unittest.TestCase):
                            "feature_m", "first_range_m", "rig_yaw_rad", "noise_seed"):
                 self.assertNotEqual(row[column], "", column)
 
+    def test_ships_are_buried_and_lines_run_along_aeroplanes(self):
+        run("--recipe", "sonar", "--out", self.folder / "a", "--pixels", 16, "--visible-share", 0, "--seed", 4,
+            "--per-class", "ship=60,plane=60")
+        rows = self.read_manifest(self.folder / "a")
+        buried = {kind: sum(float(row["t1_burial"]) > 0 for row in rows if row["class"] == kind) for kind in ("ship", "plane")}
+        self.assertGreater(buried["ship"], 45)
+        self.assertLess(buried["plane"], 15)
+        inspected = [row for row in rows if row["t1_along_line"] == "true"]
+        self.assertGreater(sum(row["class"] == "plane" for row in inspected), 25)
+        for row in inspected:
+            step = math.pi / 2 if row["class"] == "plane" else math.pi
+            off = (float(row["t1_yaw_rad"]) - float(row["rig_yaw_rad"]) - math.pi / 2) / step
+            self.assertLess(abs(off - round(off)) * step, 0.301)
+
     def test_per_class_counts_are_exact(self):
         counts = {"truncated_cone": 3, "empty": 2, "crate": 1}
         run("--recipe", "sonar", "--out", self.folder / "a", "--pixels", 32, "--visible-share", 0, "--per-class",
