@@ -1,2 +1,2 @@
 // The second translation unit of every test program: whatever a header defines without `inline` collides at link time.
-#include <insonify/insonify.hpp>
+#include <insonify/all.hpp>

@@ -2,7 +2,7 @@
 // any order. None is a primitive of the library. All fit a circle of about 1 m around the origin; z is up.
 #pragma once
 
-#include <insonify/insonify.hpp>
+#include <insonify/all.hpp>
 
 #include <algorithm>
 #include <limits>

@@ -14,7 +14,7 @@
 // plane of the one shown touch it and don't block, so coplanar duplicates are decided.
 #pragma once
 
-#include <insonify/insonify.hpp>
+#include <insonify/all.hpp>
 
 #include <cmath>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // and an open sheet on it, all of them meshes, so that every renderer gets the same triangles.
 #pragma once
 
-#include <insonify/insonify.hpp>
+#include <insonify/all.hpp>
 
 #include <sstream>
 #include <string>

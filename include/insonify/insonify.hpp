@@ -1,8 +1,8 @@
-// Umbrella header: all of insonify except testing.hpp, io/png.hpp (needs stb_image_write) and core/thread_pool.hpp
-// (needs <thread>).
+// Umbrella header: scenes of targets on a seabed, overhead pictures of them, and filters. The same in both forms (see
+// compiled.hpp).
 //
-// Units of the compiled form include the first list only; code that extends the library includes what it needs of the
-// second.
+// Everything else, side-scan recordings, further objects and seabeds, `draw` and shadow policies of your own, is in
+// headers to include by name, so that programs without it don't compile it. all.hpp includes them all.
 #pragma once
 
 #include <insonify/config.hpp>
@@ -67,75 +67,7 @@
 #include <insonify/version.hpp>
 
 #if INSONIFY_BODIES
-#include <insonify/accuracy/budget.hpp>
-#include <insonify/accuracy/metrics.hpp>
-#include <insonify/accuracy/seabed_probe.hpp>
-#include <insonify/core/simd/elementary.hpp>
-#include <insonify/core/simd/lanes.hpp>
-#include <insonify/core/simd/random_lanes.hpp>
-#include <insonify/core/simd/transpose.hpp>
-#include <insonify/filter/poisson.hpp>
-#include <insonify/geometry/bounds.hpp>
-#include <insonify/geometry/normals.hpp>
-#include <insonify/geometry/obj.hpp>
-#include <insonify/geometry/objects/aeroplane.hpp>
-#include <insonify/geometry/objects/aeroplane_parameters.hpp>
-#include <insonify/geometry/objects/boulder.hpp>
-#include <insonify/geometry/objects/compound.hpp>
-#include <insonify/geometry/objects/crate.hpp>
-#include <insonify/geometry/objects/creases.hpp>
-#include <insonify/geometry/objects/footprint.hpp>
-#include <insonify/geometry/objects/hull.hpp>
-#include <insonify/geometry/objects/hull_parameters.hpp>
-#include <insonify/geometry/objects/lobster_pot.hpp>
-#include <insonify/geometry/objects/open_pipe.hpp>
-#include <insonify/geometry/objects/truncated_cone.hpp>
-#include <insonify/geometry/objects/tyre.hpp>
-#include <insonify/geometry/objects/wedge.hpp>
-#include <insonify/geometry/regular_grid.hpp>
-#include <insonify/geometry/revolution.hpp>
-#include <insonify/geometry/topology.hpp>
-#include <insonify/geometry/triangulate.hpp>
-#include <insonify/io/manifest.hpp>
-#include <insonify/raster/draw.hpp>
-#include <insonify/raster/fragment_lanes.hpp>
-#include <insonify/raster/framebuffer.hpp>
-#include <insonify/raster/interpolatable.hpp>
-#include <insonify/raster/shader.hpp>
-#include <insonify/seabed/area.hpp>
-#include <insonify/seabed/bathymetry.hpp>
-#include <insonify/seabed/blend.hpp>
-#include <insonify/seabed/cover.hpp>
-#include <insonify/seabed/detailed.hpp>
-#include <insonify/seabed/edit.hpp>
-#include <insonify/seabed/heightfield.hpp>
-#include <insonify/seabed/mixed.hpp>
-#include <insonify/seabed/moat.hpp>
-#include <insonify/seabed/models.hpp>
-#include <insonify/seabed/normals.hpp>
-#include <insonify/seabed/sample.hpp>
-#include <insonify/seabed/sculpt.hpp>
-#include <insonify/seabed/tessellate.hpp>
-#include <insonify/shadow/exact.hpp>
-#include <insonify/shadow/height_map.hpp>
-#include <insonify/shadow/map.hpp>
-#include <insonify/shadow/map_lookup.hpp>
-#include <insonify/shadow/penumbra.hpp>
-#include <insonify/sonar/bottom_tone.hpp>
-#include <insonify/sonar/instruments.hpp>
-#include <insonify/sonar/occlusion.hpp>
-#include <insonify/sonar/options.hpp>
 #include <insonify/sonar/overhead/render.hpp>
-#include <insonify/sonar/side_scan/ping_gain.hpp>
-#include <insonify/sonar/side_scan/range_geometry.hpp>
-#include <insonify/sonar/side_scan/record.hpp>
-#include <insonify/sonar/side_scan/record_options.hpp>
-#include <insonify/sonar/side_scan/recording.hpp>
-#include <insonify/sonar/side_scan/slant_to_ground.hpp>
-#include <insonify/sonar/side_scan/sonar_equation.hpp>
-#include <insonify/sonar/side_scan/swath.hpp>
-#include <insonify/sonar/side_scan/water_column.hpp>
-#include <insonify/sonar/speckle.hpp>
 #endif
 
 #include <insonify/compiled.hpp>

@@ -23,8 +23,8 @@
 // OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE
 // SOFTWARE.
 
-#if !defined(INSONIFY_ONE_FILE)
-#define INSONIFY_ONE_FILE
+#if !defined(INSONIFY_HAS_UMBRELLA)
+#define INSONIFY_HAS_UMBRELLA
 
 // ------------ insonify/version.hpp ----------------------------------------------------------------------
 // Version numbers. CMake reads them from this file.
@@ -6771,6 +6771,8 @@ namespace detail::inline INSONIFY_ONCE {
 
 /// @throws invalid_input for indices or normals that don't match the positions
 INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m);
+/// @param m  of a primitive: nothing but its bounds needs to be found out
+INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> primitive_facts_of(mesh m);
 
 #if INSONIFY_BODIES
 INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m) {
@@ -6792,9 +6794,27 @@ INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m) {
     if (facts.kind != surface_kind::heightfield) facts.grid.reset();
     return made;
 }
+
+INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> primitive_facts_of(mesh m) {
+    const auto made = std::make_shared<mesh_facts>();
+    made->box = bounds(m);
+    made->shape = std::move(m);
+    made->kind = surface_kind::closed;
+    return made;
+}
 #endif
 
 }  // namespace detail::inline INSONIFY_ONCE
+
+namespace detail {
+
+template <class Shape, class... Others>
+inline constexpr bool is_among = (std::is_same_v<Shape, Others> || ...);
+/// Shapes whose meshes are closed, have normals, are wound by them and have a coherent order, whatever their sizes.
+template <class Shape>
+inline constexpr bool is_primitive = is_among<Shape, cube, cylinder, capsule, cone, sphere, hemisphere>;
+
+}  // namespace detail
 
 /// An immutable mesh: copies refer to the same triangles. Shuffled meshes are reordered, triangles and vertices, for
 /// coherent access; regular grids are reordered by rows; other meshes keep their order. Triangles that are wound
@@ -6806,6 +6826,15 @@ class shared_mesh {
     shared_mesh() : facts_(std::make_shared<const detail::mesh_facts>()) {}
     /// @throws invalid_input for indices or normals that don't match the positions
     INSONIFY_MEMBER shared_mesh(mesh m) : facts_(detail::facts_of(std::move(m))) {}
+    /// The mesh of a shape with a `to_mesh`. The properties of primitives are known, so that programs with no other
+    /// shapes don't compile the search for them.
+    template <class Shape>
+    INSONIFY_MEMBER static shared_mesh of(const Shape& shape) {
+        if constexpr (detail::is_primitive<Shape>)
+            return shared_mesh(detail::primitive_facts_of(to_mesh(shape)));
+        else
+            return shared_mesh(to_mesh(shape));
+    }
 
     const mesh& operator*() const { return facts_->shape; }
     const mesh* operator->() const { return &facts_->shape; }
@@ -6819,6 +6848,8 @@ class shared_mesh {
     static constexpr double grid_error = detail::mesh_facts::grid_error;
 
   private:
+    INSONIFY_MEMBER explicit shared_mesh(std::shared_ptr<const detail::mesh_facts> facts) : facts_(std::move(facts)) {}
+
     std::shared_ptr<const detail::mesh_facts> facts_;
 };
 
@@ -10372,7 +10403,7 @@ struct scene {
         if constexpr (std::is_convertible_v<Shape&&, shared_mesh>)
             return std::forward<Shape>(shape);
         else
-            return to_mesh(shape);
+            return shared_mesh::of(shape);
     }
 };
 
@@ -11048,140 +11079,8 @@ INSONIFY_ARITHMETIC_END
 
 #endif
 
-// What units of the compiled form do without, unless they name one of its headers.
-#if (INSONIFY_BODIES || defined(INSONIFY_EXTRAS)) && !defined(INSONIFY_HAS_EXTRAS)
-#define INSONIFY_HAS_EXTRAS
-
-// ------------ insonify/accuracy/metrics.hpp -------------------------------------------------------------
-// Differences between an image or a mask and its ground truth.
-//
-// A mean hides one broken tile, so the largest difference is reported beside it. Intersection over union is unstable
-// for tiny masks, so the displacement of their boundary is reported beside it.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace accuracy {
-
-/// Counts of pixels; a pixel other than 0 belongs to the mask.
-struct mask_difference {
-    std::size_t common = 0;           ///< in both masks
-    std::size_t false_pixels = 0;     ///< in the result, not in the truth: for shadows, acne
-    std::size_t missed_pixels = 0;    ///< in the truth, not in the result: for shadows, light leaks
-    std::size_t boundary_pixels = 0;  ///< of the truth: in the mask, with a 4-neighbour in the image that is not
-
-    INSONIFY_MEMBER std::size_t wrong_pixels() const { return false_pixels + missed_pixels; }
-
-    /// Intersection over union (Jaccard index), 1 when both masks are empty.
-    INSONIFY_MEMBER double intersection_over_union() const {
-        const std::size_t joined = common + wrong_pixels();
-        return joined == 0 ? 1.0 : static_cast<double>(common) / static_cast<double>(joined);
-    }
-    /// Mean displacement of the boundary along its length, pixels: wrong pixels over boundary pixels. Infinite if there
-    /// are wrong pixels but no boundary.
-    INSONIFY_TAGGED double mean_boundary_displacement() const {
-        if (wrong_pixels() == 0) return 0;
-        if (boundary_pixels == 0) return std::numeric_limits<double>::infinity();
-        return static_cast<double>(wrong_pixels()) / static_cast<double>(boundary_pixels);
-    }
-};
-
-/// Differences of pixel values, in their unit. All are NaN if a pixel is NaN in either image.
-struct pixel_difference {
-    std::size_t pixels = 0;
-    double mean_square = 0;
-    double largest = 0;  ///< of the absolute differences
-
-    /// Root of the mean square difference.
-    INSONIFY_MEMBER double rmse() const { return numeric::square_root(mean_square); }
-
-    /// Peak signal-to-noise ratio, 10 log10(peak^2 / mean square), in decibels; infinite without a difference.
-    /// @param peak  the largest value a pixel can take, finite and positive: 1 for the library's floats, 255 for bytes
-    /// @throws invalid_input for another peak
-    INSONIFY_TAGGED double psnr(double peak) const {
-        detail::require_positive("peak", peak);
-        if (mean_square == 0) return std::numeric_limits<double>::infinity();
-        constexpr double decibels = 20 / 2.302585092994045684;  // 20 / ln 10
-        return decibels * (numeric::log(peak) - 0.5 * numeric::log(mean_square));
-    }
-};
-
-}  // namespace accuracy
-
-namespace detail::inline INSONIFY_FLAGS {
-
-template <class T>
-void require_same_size(image_view<const T> result, image_view<const T> truth) {
-    require(result.width() == truth.width(), "result.width()", result.width(), "the width of the truth");
-    require(result.height() == truth.height(), "result.height()", result.height(), "the height of the truth");
-}
-
-template <class T>
-accuracy::pixel_difference compare_pixels(image_view<const T> result, image_view<const T> truth) {
-    require_same_size(result, truth);
-    accuracy::pixel_difference out{.pixels = truth.size()};
-    double sum = 0;
-    for (int y = 0; y < truth.height(); ++y) {
-        // Row by row, so that small differences are not rounded away in large images.
-        double row_sum = 0;
-        const auto a = result.row(y), b = truth.row(y);
-        for (std::size_t x = 0; x < b.size(); ++x) {
-            if (a[x] == b[x]) continue;  // equal infinities too
-            const double difference = numeric::abs(static_cast<double>(a[x]) - static_cast<double>(b[x]));
-            row_sum += difference * difference;
-            if (!(difference <= out.largest) && out.largest == out.largest) out.largest = difference;  // keeps a NaN
-        }
-        sum += row_sum;
-    }
-    if (out.pixels > 0) out.mean_square = sum / static_cast<double>(out.pixels);
-    return out;
-}
-
-}  // namespace detail::inline INSONIFY_FLAGS
-
-namespace accuracy {
-
-inline namespace INSONIFY_FLAGS {
-
-/// @throws invalid_input if the sizes differ
-inline mask_difference compare_masks(image_view<const std::uint8_t> result, image_view<const std::uint8_t> truth) {
-    detail::require_same_size(result, truth);
-    mask_difference out;
-    const int width = truth.width(), height = truth.height();
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const bool found = result(x, y) != 0;
-            if (truth(x, y) == 0) {
-                out.false_pixels += found ? 1 : 0;
-                continue;
-            }
-            (found ? out.common : out.missed_pixels) += 1;
-            const bool boundary = (x > 0 && truth(x - 1, y) == 0) || (x + 1 < width && truth(x + 1, y) == 0) ||
-                                  (y > 0 && truth(x, y - 1) == 0) || (y + 1 < height && truth(x, y + 1) == 0);
-            out.boundary_pixels += boundary ? 1 : 0;
-        }
-    }
-    return out;
-}
-
-/// Of images with linear pixels, or of bytes in steps of one.
-/// @throws invalid_input if the sizes differ
-inline pixel_difference compare_images(image_view<const float> result, image_view<const float> truth) {
-    return detail::compare_pixels(result, truth);
-}
-/// The same for codes of 8 bits.
-inline pixel_difference compare_images(image_view<const std::uint8_t> result, image_view<const std::uint8_t> truth) {
-    return detail::compare_pixels(result, truth);
-}
-
-}  // namespace INSONIFY_FLAGS
-
-}  // namespace accuracy
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
+#if !defined(INSONIFY_HAS_BODIES) && (INSONIFY_BODIES || defined(INSONIFY_WANTS_BODIES))
+#define INSONIFY_HAS_BODIES
 
 // ------------ insonify/geometry/detail/indices.hpp ------------------------------------------------------
 // Checks that a mesh's triangles index existing positions.
@@ -18148,6 +18047,142 @@ visibility see(const scene& s, const overhead& rig, const render_options<shadow:
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+#endif
+
+#if !defined(INSONIFY_HAS_ALL) && (defined(INSONIFY_IMPLEMENTATION) || defined(INSONIFY_WANTS_ALL))
+#define INSONIFY_HAS_ALL
+
+// ------------ insonify/accuracy/metrics.hpp -------------------------------------------------------------
+// Differences between an image or a mask and its ground truth.
+//
+// A mean hides one broken tile, so the largest difference is reported beside it. Intersection over union is unstable
+// for tiny masks, so the displacement of their boundary is reported beside it.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace accuracy {
+
+/// Counts of pixels; a pixel other than 0 belongs to the mask.
+struct mask_difference {
+    std::size_t common = 0;           ///< in both masks
+    std::size_t false_pixels = 0;     ///< in the result, not in the truth: for shadows, acne
+    std::size_t missed_pixels = 0;    ///< in the truth, not in the result: for shadows, light leaks
+    std::size_t boundary_pixels = 0;  ///< of the truth: in the mask, with a 4-neighbour in the image that is not
+
+    INSONIFY_MEMBER std::size_t wrong_pixels() const { return false_pixels + missed_pixels; }
+
+    /// Intersection over union (Jaccard index), 1 when both masks are empty.
+    INSONIFY_MEMBER double intersection_over_union() const {
+        const std::size_t joined = common + wrong_pixels();
+        return joined == 0 ? 1.0 : static_cast<double>(common) / static_cast<double>(joined);
+    }
+    /// Mean displacement of the boundary along its length, pixels: wrong pixels over boundary pixels. Infinite if there
+    /// are wrong pixels but no boundary.
+    INSONIFY_TAGGED double mean_boundary_displacement() const {
+        if (wrong_pixels() == 0) return 0;
+        if (boundary_pixels == 0) return std::numeric_limits<double>::infinity();
+        return static_cast<double>(wrong_pixels()) / static_cast<double>(boundary_pixels);
+    }
+};
+
+/// Differences of pixel values, in their unit. All are NaN if a pixel is NaN in either image.
+struct pixel_difference {
+    std::size_t pixels = 0;
+    double mean_square = 0;
+    double largest = 0;  ///< of the absolute differences
+
+    /// Root of the mean square difference.
+    INSONIFY_MEMBER double rmse() const { return numeric::square_root(mean_square); }
+
+    /// Peak signal-to-noise ratio, 10 log10(peak^2 / mean square), in decibels; infinite without a difference.
+    /// @param peak  the largest value a pixel can take, finite and positive: 1 for the library's floats, 255 for bytes
+    /// @throws invalid_input for another peak
+    INSONIFY_TAGGED double psnr(double peak) const {
+        detail::require_positive("peak", peak);
+        if (mean_square == 0) return std::numeric_limits<double>::infinity();
+        constexpr double decibels = 20 / 2.302585092994045684;  // 20 / ln 10
+        return decibels * (numeric::log(peak) - 0.5 * numeric::log(mean_square));
+    }
+};
+
+}  // namespace accuracy
+
+namespace detail::inline INSONIFY_FLAGS {
+
+template <class T>
+void require_same_size(image_view<const T> result, image_view<const T> truth) {
+    require(result.width() == truth.width(), "result.width()", result.width(), "the width of the truth");
+    require(result.height() == truth.height(), "result.height()", result.height(), "the height of the truth");
+}
+
+template <class T>
+accuracy::pixel_difference compare_pixels(image_view<const T> result, image_view<const T> truth) {
+    require_same_size(result, truth);
+    accuracy::pixel_difference out{.pixels = truth.size()};
+    double sum = 0;
+    for (int y = 0; y < truth.height(); ++y) {
+        // Row by row, so that small differences are not rounded away in large images.
+        double row_sum = 0;
+        const auto a = result.row(y), b = truth.row(y);
+        for (std::size_t x = 0; x < b.size(); ++x) {
+            if (a[x] == b[x]) continue;  // equal infinities too
+            const double difference = numeric::abs(static_cast<double>(a[x]) - static_cast<double>(b[x]));
+            row_sum += difference * difference;
+            if (!(difference <= out.largest) && out.largest == out.largest) out.largest = difference;  // keeps a NaN
+        }
+        sum += row_sum;
+    }
+    if (out.pixels > 0) out.mean_square = sum / static_cast<double>(out.pixels);
+    return out;
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
+namespace accuracy {
+
+inline namespace INSONIFY_FLAGS {
+
+/// @throws invalid_input if the sizes differ
+inline mask_difference compare_masks(image_view<const std::uint8_t> result, image_view<const std::uint8_t> truth) {
+    detail::require_same_size(result, truth);
+    mask_difference out;
+    const int width = truth.width(), height = truth.height();
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const bool found = result(x, y) != 0;
+            if (truth(x, y) == 0) {
+                out.false_pixels += found ? 1 : 0;
+                continue;
+            }
+            (found ? out.common : out.missed_pixels) += 1;
+            const bool boundary = (x > 0 && truth(x - 1, y) == 0) || (x + 1 < width && truth(x + 1, y) == 0) ||
+                                  (y > 0 && truth(x, y - 1) == 0) || (y + 1 < height && truth(x, y + 1) == 0);
+            out.boundary_pixels += boundary ? 1 : 0;
+        }
+    }
+    return out;
+}
+
+/// Of images with linear pixels, or of bytes in steps of one.
+/// @throws invalid_input if the sizes differ
+inline pixel_difference compare_images(image_view<const float> result, image_view<const float> truth) {
+    return detail::compare_pixels(result, truth);
+}
+/// The same for codes of 8 bits.
+inline pixel_difference compare_images(image_view<const std::uint8_t> result, image_view<const std::uint8_t> truth) {
+    return detail::compare_pixels(result, truth);
+}
+
+}  // namespace INSONIFY_FLAGS
+
+}  // namespace accuracy
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -26649,8 +26684,8 @@ INSONIFY_ARITHMETIC_END
 
 #endif
 
-#if !defined(INSONIFY_ONE_FILE_ENDED)
-#define INSONIFY_ONE_FILE_ENDED
+#if !defined(INSONIFY_HAS_COMPILED)
+#define INSONIFY_HAS_COMPILED
 
 // ------------ insonify/compiled.hpp ---------------------------------------------------------------------
 // The compiled form: pictures, recordings, seabeds and filters are compiled in one unit instead of in every unit that

@@ -2,8 +2,8 @@
 // `pixels` x `pixels`.
 //
 // Filters run in turn, so that other load affects all of them alike.
+#include <insonify/all.hpp>
 #include <insonify/core/thread_pool.hpp>
-#include <insonify/insonify.hpp>
 
 #include <algorithm>
 #include <chrono>

@@ -3,8 +3,8 @@
 //
 // The scene is the reference workload's: a rippled seabed of cells x cells and a cylinder, seen from 10 m by a camera
 // of 120 degrees, lit at 6 degrees; everything but memory is recomputed in every frame.
+#include <insonify/all.hpp>
 #include <insonify/core/thread_pool.hpp>
-#include <insonify/insonify.hpp>
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,7 @@
 // Times of seabeds: seabeds [threads] prints the least of 25 times, in milliseconds, for 1024 x 1024 samples over
 // 35 m with and without their normals, and for one of 65 x 65 on one thread, the size of a small scene.
+#include <insonify/all.hpp>
 #include <insonify/core/thread_pool.hpp>
-#include <insonify/insonify.hpp>
 
 #include <algorithm>
 #include <chrono>

@@ -1,6 +1,6 @@
 // Counts the wrong pixels of the shadow policies on imported meshes, by an independent oracle. See --help.
+#include <insonify/all.hpp>
 #include <insonify/core/thread_pool.hpp>
-#include <insonify/insonify.hpp>
 
 #include <chrono>
 #include <cstdio>

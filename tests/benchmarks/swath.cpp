@@ -3,8 +3,8 @@
 //
 // The scene is 40 m x 40 m of ripples with the four targets, heard from 5 m; everything but memory is recomputed in
 // every picture.
+#include <insonify/all.hpp>
 #include <insonify/core/thread_pool.hpp>
-#include <insonify/insonify.hpp>
 
 #include <algorithm>
 #include <chrono>

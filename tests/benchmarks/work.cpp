@@ -1,5 +1,5 @@
 // Pieces of work whose instructions are counted: work <name> <times>, on one thread. See instructions.py.
-#include <insonify/insonify.hpp>
+#include <insonify/all.hpp>
 
 #include <cstdio>
 #include <cstdlib>

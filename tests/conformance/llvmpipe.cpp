@@ -3,7 +3,7 @@
 // float.
 #include "llvmpipe.hpp"
 
-#include <insonify/insonify.hpp>
+#include <insonify/all.hpp>
 
 #include <array>
 #include <cmath>

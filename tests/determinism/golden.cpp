@@ -1,7 +1,7 @@
 // Hashes of what the library computes, one line each: golden.txt holds them, and every build of this program must print
 // the same. Within a build, a scene has one hash for every number of threads, tile size and instruction set; the
 // program says which differ and fails.
-#include <insonify/insonify.hpp>
+#include <insonify/all.hpp>
 #if !defined(__EMSCRIPTEN__)
 #include <insonify/core/thread_pool.hpp>
 #endif

@@ -1,5 +1,5 @@
 // A mesh from any text, through to pixels and labels of both sonars: finite, or refused by the library's own error.
-#include <insonify/insonify.hpp>
+#include <insonify/all.hpp>
 
 #include <string_view>
 

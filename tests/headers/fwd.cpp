@@ -26,8 +26,8 @@ static_assert(!is_complete<in::overhead>);
 
 }  // namespace user
 
+#include <insonify/all.hpp>
 #include <insonify/core/thread_pool.hpp>
-#include <insonify/insonify.hpp>
 
 namespace user {
 

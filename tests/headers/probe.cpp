@@ -1,7 +1,7 @@
 // Compiled several times under different flags, as the function PROBE: draws a turned cube with speckle on it.
 #include "probe.hpp"
 
-#include <insonify/insonify.hpp>
+#include <insonify/all.hpp>
 
 #include <bit>
 

@@ -20,9 +20,10 @@ MAY_INCLUDE = {
     "accuracy": ["sonar"],
 }
 
-UMBRELLA = "insonify.hpp"
-COLLECTIONS = {UMBRELLA, "compiled.hpp", "testing.hpp"}  # headers that only include others
-NOT_IN_UMBRELLA = COLLECTIONS - {"compiled.hpp"} | {
+UMBRELLA, ALL = "insonify.hpp", "all.hpp"
+COLLECTIONS = {UMBRELLA, ALL, "compiled.hpp", "testing.hpp"}  # headers that only include others
+NOT_IN_ALL = {
+    ALL, "testing.hpp",
     "io/png.hpp", "core/thread_pool.hpp", "testing/compare.hpp", "testing/golden.hpp", "testing/catch2.hpp",
 }
 
@@ -44,7 +45,7 @@ BANNED_NAMES = {
 
 # Headers without floating-point arithmetic; all others forbid fused multiply-add.
 NO_ARITHMETIC = {
-    UMBRELLA, "compiled.hpp", "fwd.hpp", "version.hpp", "config.hpp", "core/error.hpp", "core/executor.hpp", "core/detail/filled.hpp",
+    UMBRELLA, ALL, "compiled.hpp", "fwd.hpp", "version.hpp", "config.hpp", "core/error.hpp", "core/executor.hpp", "core/detail/filled.hpp",
     "core/image.hpp", "core/image_view.hpp", "core/detail/int128.hpp", "core/detail/portable.hpp", "core/context.hpp", "core/detail/block_pool.hpp",
     "core/thread_pool.hpp", "core/detail/uninitialized.hpp", "geometry/mesh.hpp", "io/file.hpp", "io/manifest.hpp", "io/png.hpp", "core/detail/file.hpp", "raster/framebuffer.hpp",
     "core/rect.hpp", "raster/draw_options.hpp", "raster/interpolatable.hpp", "seabed/models.hpp", "geometry/shared_mesh.hpp",
@@ -127,21 +128,21 @@ def faults(header, path):
         yield from ((number, fault) for fault in line_faults(header, line if "#include" in line else code))
 
 
-def umbrella_faults(root, headers):
-    lists = (root / UMBRELLA).read_text() + (root / "seabed/models.hpp").read_text()
+def list_faults(root, headers):
+    lists = "".join((root / name).read_text() for name in (UMBRELLA, ALL, "seabed/models.hpp"))
     listed = set(re.findall(r"^#include <insonify/(.+)>", lists, flags=re.M))
     public = {header for header in headers if "/detail/" not in header}
-    for header in sorted(public - NOT_IN_UMBRELLA - listed):
-        yield f"{UMBRELLA}: {header} is missing"
-    for header in sorted(listed & NOT_IN_UMBRELLA):
-        yield f"{UMBRELLA}: {header} does not belong there"
+    for header in sorted(public - NOT_IN_ALL - listed):
+        yield f"{ALL}: {header} is missing"
+    for header in sorted(listed & NOT_IN_ALL):
+        yield f"{ALL}: {header} does not belong there"
 
 
 def main():
     root = pathlib.Path(sys.argv[1]) / "insonify"
     headers = {path.relative_to(root).as_posix(): path for path in sorted(root.rglob("*.hpp"))}
     found = [f"{header}:{number}: {fault}" for header, path in headers.items() for number, fault in faults(header, path)]
-    found += umbrella_faults(root, headers)
+    found += list_faults(root, headers)
     print("\n".join(found + [f"{len(headers)} headers, {len(found)} faults"]))
     sys.exit(1 if found else 0)
 

@@ -7,12 +7,14 @@
 #include <insonify/geometry/detail/lattice_order.hpp>
 #include <insonify/geometry/normals.hpp>
 #endif
+#include <insonify/fwd.hpp>
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/geometry/regular_grid.hpp>
 #include <insonify/geometry/surface_kind.hpp>
 
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 namespace insonify {
@@ -36,6 +38,8 @@ namespace detail::inline INSONIFY_ONCE {
 
 /// @throws invalid_input for indices or normals that don't match the positions
 INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m);
+/// @param m  of a primitive: nothing but its bounds needs to be found out
+INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> primitive_facts_of(mesh m);
 
 #if INSONIFY_BODIES
 INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m) {
@@ -57,9 +61,27 @@ INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m) {
     if (facts.kind != surface_kind::heightfield) facts.grid.reset();
     return made;
 }
+
+INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> primitive_facts_of(mesh m) {
+    const auto made = std::make_shared<mesh_facts>();
+    made->box = bounds(m);
+    made->shape = std::move(m);
+    made->kind = surface_kind::closed;
+    return made;
+}
 #endif
 
 }  // namespace detail::inline INSONIFY_ONCE
+
+namespace detail {
+
+template <class Shape, class... Others>
+inline constexpr bool is_among = (std::is_same_v<Shape, Others> || ...);
+/// Shapes whose meshes are closed, have normals, are wound by them and have a coherent order, whatever their sizes.
+template <class Shape>
+inline constexpr bool is_primitive = is_among<Shape, cube, cylinder, capsule, cone, sphere, hemisphere>;
+
+}  // namespace detail
 
 /// An immutable mesh: copies refer to the same triangles. Shuffled meshes are reordered, triangles and vertices, for
 /// coherent access; regular grids are reordered by rows; other meshes keep their order. Triangles that are wound
@@ -71,6 +93,15 @@ class shared_mesh {
     shared_mesh() : facts_(std::make_shared<const detail::mesh_facts>()) {}
     /// @throws invalid_input for indices or normals that don't match the positions
     INSONIFY_MEMBER shared_mesh(mesh m) : facts_(detail::facts_of(std::move(m))) {}
+    /// The mesh of a shape with a `to_mesh`. The properties of primitives are known, so that programs with no other
+    /// shapes don't compile the search for them.
+    template <class Shape>
+    INSONIFY_MEMBER static shared_mesh of(const Shape& shape) {
+        if constexpr (detail::is_primitive<Shape>)
+            return shared_mesh(detail::primitive_facts_of(to_mesh(shape)));
+        else
+            return shared_mesh(to_mesh(shape));
+    }
 
     const mesh& operator*() const { return facts_->shape; }
     const mesh* operator->() const { return &facts_->shape; }
@@ -84,6 +115,8 @@ class shared_mesh {
     static constexpr double grid_error = detail::mesh_facts::grid_error;
 
   private:
+    INSONIFY_MEMBER explicit shared_mesh(std::shared_ptr<const detail::mesh_facts> facts) : facts_(std::move(facts)) {}
+
     std::shared_ptr<const detail::mesh_facts> facts_;
 };
 

@@ -50,7 +50,7 @@ struct scene {
         if constexpr (std::is_convertible_v<Shape&&, shared_mesh>)
             return std::forward<Shape>(shape);
         else
-            return to_mesh(shape);
+            return shared_mesh::of(shape);
     }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
 
-#if !defined(INSONIFY_ONE_FILE)
+#if !defined(INSONIFY_HAS_UMBRELLA)
 #include <insonify/insonify.hpp>
 #endif

@@ -1,6 +1,6 @@
 #pragma once
 
-#if !defined(INSONIFY_HAS_EXTRAS)
-#define INSONIFY_EXTRAS
+#if !defined(INSONIFY_HAS_BODIES)
+#define INSONIFY_WANTS_BODIES
 #include <insonify/insonify.hpp>
 #endif

@@ -1,6 +1,6 @@
 // Every knob of the trade of speed for accuracy, measured in one run. See --help and docs/tradeoff.md.
+#include <insonify/all.hpp>
 #include <insonify/core/thread_pool.hpp>
-#include <insonify/insonify.hpp>
 
 #include <cstdio>
 #include <cstdlib>

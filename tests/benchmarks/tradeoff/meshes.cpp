@@ -1,6 +1,6 @@
 // The shadow policies on imported meshes.
+#include <insonify/all.hpp>
 #include <insonify/core/thread_pool.hpp>
-#include <insonify/insonify.hpp>
 
 #include <algorithm>
 #include <cstdio>

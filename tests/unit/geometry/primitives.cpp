@@ -3,6 +3,7 @@
 #include <insonify/geometry/cube.hpp>
 #include <insonify/geometry/cylinder.hpp>
 #include <insonify/geometry/normals.hpp>
+#include <insonify/geometry/shared_mesh.hpp>
 #include <insonify/geometry/sphere.hpp>
 #include <insonify/geometry/topology.hpp>
 
@@ -245,6 +246,30 @@ TEST_CASE("A primitive refuses sizes and segments out of range") {
     CHECK_THROWS_AS(to_mesh(in::sphere{.segments = 8193}), in::invalid_input);
     CHECK_THROWS_WITH(to_mesh(in::cylinder{.radius = -2}),
                       ContainsSubstring("cylinder.radius") && ContainsSubstring("-2"));
+}
+
+TEST_CASE("What is known of a primitive's shared mesh is what a search finds") {
+    const auto check = [](const auto& shape) {
+        const in::shared_mesh known = in::shared_mesh::of(shape), found(in::to_mesh(shape));
+        CHECK(known->positions == found->positions);
+        CHECK(known->normals == found->normals);
+        CHECK(known->triangles == found->triangles);
+        CHECK(known.box().lower == found.box().lower);
+        CHECK(known.box().upper == found.box().upper);
+        CHECK(known.kind() == found.kind());
+        CHECK(known.grid() == found.grid());
+    };
+    for (const float size : {1e-37f, 1e-3f, 0.7f, 1e4f, 1e37f}) {
+        check(in::cube{.size = {size, size / 3, 5 * size}});
+        for (const int segments : {3, 64, 700}) {
+            check(in::cylinder{.radius = size, .length = 3 * size, .segments = segments});
+            check(in::capsule{.radius = size, .length = 3 * size, .segments = segments});
+            check(in::cone{.radius = size, .height = size / 2, .segments = segments});
+            check(in::sphere{.radius = size, .segments = segments});
+            check(in::hemisphere{.radius = size, .segments = segments});
+        }
+    }
+    check(in::cylinder{.segments = 1 << 20});
 }
 
 TEST_CASE("Topology distinguishes open, tangled and closed surfaces") {

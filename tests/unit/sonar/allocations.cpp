@@ -1,6 +1,6 @@
 // Out of memory at any point of a picture or a recording: std::bad_alloc, without leaks.
+#include <insonify/all.hpp>
 #include <insonify/core/thread_pool.hpp>
-#include <insonify/insonify.hpp>
 
 #include <utility>
 

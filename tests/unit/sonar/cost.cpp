@@ -1,5 +1,5 @@
 // The cost of a picture depends on the ground in view, not on the extent of the seabed: samples are counted.
-#include <insonify/insonify.hpp>
+#include <insonify/all.hpp>
 #include <insonify/seabed/blend.hpp>
 #include <insonify/sonar/side_scan/recording.hpp>
 

@@ -1,5 +1,5 @@
 // Rigs at the limits of their ranges: the picture equals that of ordinary dimensions, or changes as geometry predicts.
-#include <insonify/insonify.hpp>
+#include <insonify/all.hpp>
 
 #include "../../catch.hpp"
 

@@ -1,7 +1,7 @@
 // Looks of sonars (displays, gain errors, banding, the water column, tones of the seabed, instruments) against closed
 // forms and moments, and at extremes.
+#include <insonify/all.hpp>
 #include <insonify/core/thread_pool.hpp>
-#include <insonify/insonify.hpp>
 #include <insonify/sonar/bottom_tone.hpp>
 #include <insonify/sonar/instruments.hpp>
 #include <insonify/sonar/side_scan/ping_gain.hpp>

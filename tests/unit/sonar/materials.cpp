@@ -1,5 +1,5 @@
 // Materials and poses are checked by every way to draw a scene, and refused by name.
-#include <insonify/insonify.hpp>
+#include <insonify/all.hpp>
 
 #include <limits>
 

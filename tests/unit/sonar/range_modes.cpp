@@ -1,6 +1,6 @@
 // Range modes: labels of bins, objects above the sonar, thin parts, normals, scenes without seabed, attitude, and the
 // order of rows. Energies are those of closed forms.
-#include <insonify/insonify.hpp>
+#include <insonify/all.hpp>
 
 #include <algorithm>
 #include <cmath>

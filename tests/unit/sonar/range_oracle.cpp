@@ -1,8 +1,8 @@
 // Range modes against an oracle that shares no code with the library: a dense fan of rays in double precision, each
 // tested against every triangle's cross-section. Energies, instances and shadows by bin have to agree.
+#include <insonify/all.hpp>
 #include <insonify/geometry/objects/boulder.hpp>
 #include <insonify/geometry/objects/lobster_pot.hpp>
-#include <insonify/insonify.hpp>
 #include <insonify/sonar/side_scan/recording.hpp>
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // range.
 #include "../../refusals.hpp"
 
-#include <insonify/insonify.hpp>
+#include <insonify/all.hpp>
 
 #include <initializer_list>
 #include <span>

@@ -1,7 +1,7 @@
 // Side-scan geometry against closed forms: ranges of echoes, lengths of shadows, intensities and labels, at ordinary
 // dimensions and at the limits of their ranges.
+#include <insonify/all.hpp>
 #include <insonify/core/thread_pool.hpp>
-#include <insonify/insonify.hpp>
 #include <insonify/seabed/blend.hpp>
 #include <insonify/seabed/heightfield.hpp>
 #include <insonify/sonar/side_scan/range_geometry.hpp>

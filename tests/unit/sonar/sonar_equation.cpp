@@ -1,5 +1,5 @@
 // The sonar equation part by part: each follows its formula, and parts that are left out have no effect.
-#include <insonify/insonify.hpp>
+#include <insonify/all.hpp>
 #include <insonify/sonar/side_scan/record.hpp>
 #include <insonify/sonar/side_scan/swath.hpp>
 

@@ -1,6 +1,6 @@
 // Speckle against the moments of its distributions, and its keying by seed, side, ping and bin.
+#include <insonify/all.hpp>
 #include <insonify/core/thread_pool.hpp>
-#include <insonify/insonify.hpp>
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // Both sides of a track in one picture.
-#include <insonify/insonify.hpp>
+#include <insonify/all.hpp>
 #include <insonify/sonar/side_scan/recording.hpp>
 #include <insonify/sonar/side_scan/slant_to_ground.hpp>
 #include <insonify/sonar/side_scan/swath.hpp>

@@ -1,6 +1,7 @@
 #pragma once
 
-#if !defined(INSONIFY_HAS_EXTRAS)
-#define INSONIFY_EXTRAS
+#if !defined(INSONIFY_HAS_ALL)
+#define INSONIFY_WANTS_BODIES
+#define INSONIFY_WANTS_ALL
 #include <insonify/insonify.hpp>
 #endif
