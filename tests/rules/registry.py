@@ -19,6 +19,7 @@ ROWS = {
 
 PROGRAM = """
 #include <insonify/insonify.hpp>
+#include <insonify/sonar/speckle.hpp>
 #include <cstdio>
 namespace in = insonify;
 namespace sb = insonify::seabed;
