@@ -226,9 +226,12 @@ inline void sample_look(const options& o, sampler& s, sonar_plan& p, double pixe
                                                         : static_cast<double>(p.sonar.beam);
     p.beam = s.derived("beam_rad", (std::max)(beam * s.uniform("beam_factor", 0.7, 1.5), 0.3 * pixel / slant));
 
-    p.gain.rms = static_cast<float>(s.logarithmic("gain_error_db", 0.05, 0.9));
+    p.gain.rms = static_cast<float>(s.logarithmic("gain_error_db", 0.05, 1.5));
     p.gain.length = static_cast<float>(s.uniform("gain_error_px", 25, 120));
-    p.gain.slope = static_cast<float>(s.uniform("gain_slope_db", -1.6, 1.6));
+    // Up or down by 0.2 to 8 dB over the chip, uniform in the logarithm: spreading, absorption and the beam pattern are
+    // compensated by rules of thumb.
+    const double tilt = s.drawn(-1, 1), size = 0.2 * in::numeric::exp(in::numeric::abs(tilt) * in::numeric::log(40.0));
+    p.gain.slope = static_cast<float>(s.derived("gain_slope_db", tilt < 0 ? -size : size));
     p.gain.seed = s.word("gain_seed");
     p.banding.drift = static_cast<float>(s.uniform_or_0("banding_drift_db", 0.5, 0.1, 0.9));
     p.banding.length = static_cast<float>(s.uniform("banding_px", 3, 30));
