@@ -6771,7 +6771,7 @@ namespace detail::inline INSONIFY_ONCE {
 
 /// @throws invalid_input for indices or normals that don't match the positions
 INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m);
-/// @param m  of a primitive: nothing but its bounds needs to be found out
+/// The same for the mesh of a primitive, of which only the bounds have to be computed.
 INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> primitive_facts_of(mesh m);
 
 #if INSONIFY_BODIES
@@ -6826,8 +6826,8 @@ class shared_mesh {
     shared_mesh() : facts_(std::make_shared<const detail::mesh_facts>()) {}
     /// @throws invalid_input for indices or normals that don't match the positions
     INSONIFY_MEMBER shared_mesh(mesh m) : facts_(detail::facts_of(std::move(m))) {}
-    /// The mesh of a shape with a `to_mesh`. The properties of primitives are known, so that programs with no other
-    /// shapes don't compile the search for them.
+    /// The mesh of a shape with a `to_mesh`. Primitives skip the analysis, because their type tells its results; a
+    /// program that has no other shapes does not compile it.
     template <class Shape>
     INSONIFY_MEMBER static shared_mesh of(const Shape& shape) {
         if constexpr (detail::is_primitive<Shape>)

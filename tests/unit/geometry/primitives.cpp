@@ -248,7 +248,7 @@ TEST_CASE("A primitive refuses sizes and segments out of range") {
                       ContainsSubstring("cylinder.radius") && ContainsSubstring("-2"));
 }
 
-TEST_CASE("What is known of a primitive's shared mesh is what a search finds") {
+TEST_CASE("shared_mesh::of() gives a primitive the properties that analysis finds") {
     const auto check = [](const auto& shape) {
         const in::shared_mesh known = in::shared_mesh::of(shape), found(in::to_mesh(shape));
         CHECK(known->positions == found->positions);
