@@ -374,6 +374,16 @@ class Generator(unittest.TestCase):
             off = (float(row["t1_yaw_rad"]) - float(row["rig_yaw_rad"]) - math.pi / 2) / step
             self.assertLess(abs(off - round(off)) * step, 0.301)
 
+    def test_gain_slopes_up_and_down_by_up_to_8_decibels(self):
+        run("--recipe", "sonar", "--out", self.folder / "a", "--pixels", 16, "--visible-share", 0, "--count", 120)
+        slopes = [float(row["gain_slope_db"]) for row in self.read_manifest(self.folder / "a")]
+        sizes = sorted(map(abs, slopes))
+        self.assertGreaterEqual(sizes[0], 0.2)
+        self.assertLessEqual(sizes[-1], 8)
+        self.assertGreater(sum(size > 1.6 for size in sizes), 35)  # 44 % expected: uniform in the logarithm
+        for rising in (True, False):
+            self.assertGreater(sum((slope > 0) == rising for slope in slopes), 40)
+
     def test_per_class_counts_are_exact(self):
         counts = {"truncated_cone": 3, "empty": 2, "crate": 1}
         run("--recipe", "sonar", "--out", self.folder / "a", "--pixels", 32, "--visible-share", 0, "--per-class",

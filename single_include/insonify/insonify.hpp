@@ -23678,52 +23678,14 @@ struct equation_of final : equation_interface {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/side_scan/record_options.hpp -----------------------------------------------
-// Options of side-scan pictures.
+// ------------ insonify/sonar/side_scan/detail/range_bins.hpp --------------------------------------------
+// The columns of a recording, and the options of recorders without the types of the sonar equation's parts.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Options of side-scan pictures. The types select what is computed: Labels are `labels` or `no_labels`, Equation lists
-/// the parts of the sonar equation.
-template <class Labels = labels, backscatter_law Law = lambert_backscatter, class Equation = sonar_equation<level_gain>>
-struct record_options {
-    Law law{};
-    Equation equation{};
-    /// Metres between the vertices at which the seabed is sampled, and an upper bound of the distance between rays on
-    /// level ground; 0: see default_cell. Measured at 5 m altitude with 2048 bins over 40 m, against cells of 5 mm:
-    /// cells of 2, 4 and 8 cm take 2, 1 and 0.6 times the default's time; shadow labels differ in 0.9, 1.5 and 3.4 % of
-    /// the bins on ripples and in 3.6, 5.3 and 11 % on rock, amplitudes by 7, 10 and 19 % (rms) on ripples.
-    double cell = 0;
-
-    /// The same options with another sonar equation, another law, or without labels, as in
-    /// `record_options<>{}.with(sonar_equation{pulse{}, level_gain{}})`.
-    template <class... Parts>
-    INSONIFY_MEMBER record_options<Labels, Law, sonar_equation<Parts...>> with(
-        const sonar_equation<Parts...>& other) const {
-        return {law, other, cell};
-    }
-    template <backscatter_law Other>
-    INSONIFY_MEMBER record_options<Labels, Other, Equation> with(const Other& other) const {
-        return {other, equation, cell};
-    }
-    INSONIFY_MEMBER record_options<no_labels, Law, Equation> without_labels() const { return {law, equation, cell}; }
-};
-
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/sonar/side_scan/recording.hpp ----------------------------------------------------
-// Side-scan pictures: the functions that record them. Their bodies are in record.hpp.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
 namespace detail {
 
 /// The columns of a recording, in slant or ground range.
@@ -23771,6 +23733,63 @@ inline int beam_reach(const equation_interface& equation, const range_bins& wind
     require(pings < 4096, "pings in the horizontal beam", pings, "below 4096");
     return static_cast<int>(pings);
 }
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/side_scan/record_options.hpp -----------------------------------------------
+// Options of side-scan pictures.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// Options of side-scan pictures. The types select what is computed: Labels are `labels` or `no_labels`, Equation lists
+/// the parts of the sonar equation.
+template <class Labels = labels, backscatter_law Law = lambert_backscatter, class Equation = sonar_equation<level_gain>>
+struct record_options {
+    Law law{};
+    Equation equation{};
+    /// Metres between the vertices at which the seabed is sampled, and an upper bound of the distance between rays on
+    /// level ground; 0: see default_cell. Measured at 5 m altitude with 2048 bins over 40 m, against cells of 5 mm:
+    /// cells of 2, 4 and 8 cm take 2, 1 and 0.6 times the default's time; shadow labels differ in 0.9, 1.5 and 3.4 % of
+    /// the bins on ripples and in 3.6, 5.3 and 11 % on rock, amplitudes by 7, 10 and 19 % (rms) on ripples.
+    double cell = 0;
+
+    /// The same options with another sonar equation, another law, or without labels, as in
+    /// `record_options<>{}.with(sonar_equation{pulse{}, level_gain{}})`.
+    template <class... Parts>
+    INSONIFY_MEMBER record_options<Labels, Law, sonar_equation<Parts...>> with(
+        const sonar_equation<Parts...>& other) const {
+        return {law, other, cell};
+    }
+    template <backscatter_law Other>
+    INSONIFY_MEMBER record_options<Labels, Other, Equation> with(const Other& other) const {
+        return {other, equation, cell};
+    }
+    INSONIFY_MEMBER record_options<no_labels, Law, Equation> without_labels() const { return {law, equation, cell}; }
+};
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/side_scan/recording.hpp ----------------------------------------------------
+// Side-scan pictures: the functions that record them. Their bodies are in record.hpp, which is included below in the
+// header-only form.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class Labels, class Law>
 frame<Labels> record_pings(const scene& s, std::span<const ping> track, const range_bins& window,
@@ -23854,6 +23873,9 @@ frame<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
 }  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
+
+#if INSONIFY_BODIES
+#endif
 
 // ------------ insonify/sonar/side_scan/detail/bottom_tiles.hpp ------------------------------------------
 // The seabed along a track: heights and slopes in square tiles, sampled only where pings need them.
@@ -25401,9 +25423,6 @@ INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/swath.hpp --------------------------------------------------------
 // Mirrors, flips and joins pictures: both sides of a track in one.
-
-#if INSONIFY_BODIES
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 

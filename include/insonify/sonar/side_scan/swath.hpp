@@ -2,9 +2,6 @@
 #pragma once
 
 #include <insonify/sonar/side_scan/recording.hpp>
-#if INSONIFY_BODIES
-#include <insonify/sonar/side_scan/record.hpp>
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 

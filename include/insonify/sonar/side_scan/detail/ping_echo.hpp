@@ -11,8 +11,8 @@
 #include <insonify/sonar/side_scan/detail/echo_bins.hpp>
 #include <insonify/sonar/side_scan/detail/ping_fan.hpp>
 #include <insonify/sonar/side_scan/detail/range_axis.hpp>
+#include <insonify/sonar/side_scan/detail/range_bins.hpp>
 #include <insonify/sonar/side_scan/detail/target_hits.hpp>
-#include <insonify/sonar/side_scan/recording.hpp>
 
 #include <array>
 

@@ -4,7 +4,7 @@
 #include <insonify/core/detail/filled.hpp>
 #include <insonify/sonar/detail/checked_materials.hpp>
 #include <insonify/sonar/side_scan/detail/ping_echo.hpp>
-#include <insonify/sonar/side_scan/recording.hpp>
+#include <insonify/sonar/side_scan/detail/range_bins.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
