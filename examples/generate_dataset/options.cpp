@@ -150,7 +150,7 @@ options parsed(int argc, const char* const* argv,
                    "Recipe sonar: images are redrawn if less than this share of a target's outline is visible (0.1)")
         ->check(number(0, 1))
         ->group(scene);
-    app.add_option("--empty", o.empty, "Recipe sonar: share of images without a target, class `empty` (0.5)")
+    app.add_option("--empty", o.empty, "Recipe sonar: share of images without a target, class `empty` (0.4)")
         ->check(number(0, 1))
         ->group(scene);
     app.add_option("--per-class", o.per_class,

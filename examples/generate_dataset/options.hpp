@@ -36,7 +36,7 @@ struct options {
     std::uint64_t seed = 1;
     int size = 2048;
     double visible_share = 0.1;          ///< lower bound, share of a target's outline; recipe sonar
-    double empty = 0.5;                  ///< share of images without a target, recipe sonar
+    double empty = 0.4;                  ///< share of images without a target, recipe sonar
     std::vector<std::string> per_class;  ///< class=count
     std::vector<std::string> targets{"cylinder", "cube", "cone", "sphere"};
     std::vector<std::string> meshes;  ///< class=path
