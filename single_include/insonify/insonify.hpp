@@ -1149,6 +1149,14 @@ constexpr double to_radians(double degrees) {
 constexpr double to_degrees(double radians) {
     return radians * (180 / pi);
 }
+/// A float as a double, where users may have rounded it from one. g++ 12 vectorizes pairs of conversions and then drops
+/// the rounding (at -O2, a rig at 0.1f stood at 0.1); it can't see through this one.
+inline double widened(float value) {
+#if defined(__GNUC__) && !defined(__clang__)
+    __asm__("" : "+g"(value));
+#endif
+    return static_cast<double>(value);
+}
 
 /// Tests the exponent bits, so that no compiler flag can optimize the test away.
 constexpr bool is_finite(float value) {
@@ -5460,14 +5468,14 @@ inline affine to_world(const pose& p) {
     require_finite("pose.burial", p.burial);
     detail::require_positive("pose.scale", p.scale);
 
-    const auto [sy, cy] = numeric::sin_cos(static_cast<double>(p.yaw));
-    const auto [sp, cp] = numeric::sin_cos(static_cast<double>(p.pitch));
-    const auto [sr, cr] = numeric::sin_cos(static_cast<double>(p.roll));
+    const auto [sy, cy] = numeric::sin_cos(numeric::widened(p.yaw));
+    const auto [sp, cp] = numeric::sin_cos(numeric::widened(p.pitch));
+    const auto [sr, cr] = numeric::sin_cos(numeric::widened(p.roll));
     // Columns are the images of the object's axes.
     const glm::dmat3 rotation(glm::dvec3(cy * cp, sy * cp, -sp),                                    //
                               glm::dvec3(cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, cp * sr),  //
                               glm::dvec3(cy * sp * cr + sy * sr, sy * sp * cr - cy * sr, cp * cr));
-    return {static_cast<double>(p.scale) * rotation, p.position - glm::dvec3(0.0, 0.0, static_cast<double>(p.burial))};
+    return {numeric::widened(p.scale) * rotation, p.position - glm::dvec3(0.0, 0.0, numeric::widened(p.burial))};
 }
 
 /// The transformed mesh; each coordinate is rounded to float once. A mirroring map also swaps the winding, so that
@@ -10686,10 +10694,9 @@ void validate(const side_scan_rig<Axis>& rig) {
 /// A ping of the rig's track. Numbers below 0 and beyond the last continue the line.
 template <across_track Axis>
 ping ping_of(const side_scan_rig<Axis>& rig, int number) {
-    const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
-    const double along = static_cast<double>(rig.ping_spacing) * number;
-    return {{rig.position.x - along * sine, rig.position.y + along * cosine, static_cast<double>(rig.altitude)},
-            static_cast<double>(rig.yaw)};
+    const double yaw = numeric::widened(rig.yaw), along = numeric::widened(rig.ping_spacing) * number;
+    const auto [sine, cosine] = numeric::sin_cos(yaw);
+    return {{rig.position.x - along * sine, rig.position.y + along * cosine, numeric::widened(rig.altitude)}, yaw};
 }
 
 /// All pings of the rig's track, in order.
@@ -10864,10 +10871,10 @@ class overhead_geometry {
     /// @throws invalid_input as validate does
     explicit overhead_geometry(const overhead& rig)
         : rig_((validate(rig), rig)),
-          tangent_(numeric::tan(0.5 * static_cast<double>(rig.field_of_view))),
-          light_({static_cast<double>(rig.light_azimuth), static_cast<double>(rig.grazing)}) {
+          tangent_(numeric::tan(0.5 * numeric::widened(rig.field_of_view))),
+          light_({numeric::widened(rig.light_azimuth), numeric::widened(rig.grazing)}) {
         clip_scale_ = glm::vec2(1 / tangent_, static_cast<double>(rig.size.x) / rig.size.y / tangent_);
-        const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
+        const auto [sine, cosine] = numeric::sin_cos(numeric::widened(rig.yaw));
         right_ = {cosine, sine};
         rig_from_world_.linear = {{cosine, -sine, 0}, {sine, cosine, 0}, {0, 0, 1}};
         rig_from_world_.offset = -numeric::product(rig_from_world_.linear, glm::dvec3(rig.position, 0));

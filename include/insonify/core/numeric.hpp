@@ -57,6 +57,14 @@ constexpr double to_radians(double degrees) {
 constexpr double to_degrees(double radians) {
     return radians * (180 / pi);
 }
+/// A float as a double, where users may have rounded it from one. g++ 12 vectorizes pairs of conversions and then drops
+/// the rounding (at -O2, a rig at 0.1f stood at 0.1); it can't see through this one.
+inline double widened(float value) {
+#if defined(__GNUC__) && !defined(__clang__)
+    __asm__("" : "+g"(value));
+#endif
+    return static_cast<double>(value);
+}
 
 /// Tests the exponent bits, so that no compiler flag can optimize the test away.
 constexpr bool is_finite(float value) {

@@ -103,14 +103,14 @@ inline affine to_world(const pose& p) {
     require_finite("pose.burial", p.burial);
     detail::require_positive("pose.scale", p.scale);
 
-    const auto [sy, cy] = numeric::sin_cos(static_cast<double>(p.yaw));
-    const auto [sp, cp] = numeric::sin_cos(static_cast<double>(p.pitch));
-    const auto [sr, cr] = numeric::sin_cos(static_cast<double>(p.roll));
+    const auto [sy, cy] = numeric::sin_cos(numeric::widened(p.yaw));
+    const auto [sp, cp] = numeric::sin_cos(numeric::widened(p.pitch));
+    const auto [sr, cr] = numeric::sin_cos(numeric::widened(p.roll));
     // Columns are the images of the object's axes.
     const glm::dmat3 rotation(glm::dvec3(cy * cp, sy * cp, -sp),                                    //
                               glm::dvec3(cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, cp * sr),  //
                               glm::dvec3(cy * sp * cr + sy * sr, sy * sp * cr - cy * sr, cp * cr));
-    return {static_cast<double>(p.scale) * rotation, p.position - glm::dvec3(0.0, 0.0, static_cast<double>(p.burial))};
+    return {numeric::widened(p.scale) * rotation, p.position - glm::dvec3(0.0, 0.0, numeric::widened(p.burial))};
 }
 
 /// The transformed mesh; each coordinate is rounded to float once. A mirroring map also swaps the winding, so that

@@ -11,6 +11,16 @@ namespace in = insonify;
 namespace numeric = insonify::numeric;
 using namespace insonify::literals;
 
+// Rounds a pair of doubles to floats and back, with external linkage so that compilers see no more than a pair.
+struct pair_of_doubles {
+    double first, second;
+};
+[[gnu::noinline]] void round_to_float(const pair_of_doubles& from, pair_of_doubles& to) {
+    const auto first = static_cast<float>(from.first), second = static_cast<float>(from.second);
+    to.first = numeric::widened(first);
+    to.second = numeric::widened(second);
+}
+
 namespace {
 
 using limits = std::numeric_limits<double>;
@@ -176,6 +186,13 @@ TEMPLATE_TEST_CASE("is_finite() is false for infinity and NaN alone", "", float,
         CHECK(numeric::is_finite(value));
     for (const TestType value : {own::infinity(), -own::infinity(), own::quiet_NaN(), own::signaling_NaN()})
         CHECK(!numeric::is_finite(value));
+}
+
+TEST_CASE("widened() keeps the rounding of a pair of doubles to floats, which g++ 12 otherwise drops") {
+    pair_of_doubles pair{};
+    round_to_float({0.1, 0.7}, pair);
+    CHECK(pair.first == 0x1.99999ap-4);
+    CHECK(pair.second == 0x1.666666p-1);
 }
 
 TEST_CASE("Degrees are written as literals and stored as radians") {

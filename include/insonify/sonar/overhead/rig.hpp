@@ -63,10 +63,10 @@ class overhead_geometry {
     /// @throws invalid_input as validate does
     explicit overhead_geometry(const overhead& rig)
         : rig_((validate(rig), rig)),
-          tangent_(numeric::tan(0.5 * static_cast<double>(rig.field_of_view))),
-          light_({static_cast<double>(rig.light_azimuth), static_cast<double>(rig.grazing)}) {
+          tangent_(numeric::tan(0.5 * numeric::widened(rig.field_of_view))),
+          light_({numeric::widened(rig.light_azimuth), numeric::widened(rig.grazing)}) {
         clip_scale_ = glm::vec2(1 / tangent_, static_cast<double>(rig.size.x) / rig.size.y / tangent_);
-        const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
+        const auto [sine, cosine] = numeric::sin_cos(numeric::widened(rig.yaw));
         right_ = {cosine, sine};
         rig_from_world_.linear = {{cosine, -sine, 0}, {sine, cosine, 0}, {0, 0, 1}};
         rig_from_world_.offset = -numeric::product(rig_from_world_.linear, glm::dvec3(rig.position, 0));

@@ -96,10 +96,9 @@ void validate(const side_scan_rig<Axis>& rig) {
 /// A ping of the rig's track. Numbers below 0 and beyond the last continue the line.
 template <across_track Axis>
 ping ping_of(const side_scan_rig<Axis>& rig, int number) {
-    const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
-    const double along = static_cast<double>(rig.ping_spacing) * number;
-    return {{rig.position.x - along * sine, rig.position.y + along * cosine, static_cast<double>(rig.altitude)},
-            static_cast<double>(rig.yaw)};
+    const double yaw = numeric::widened(rig.yaw), along = numeric::widened(rig.ping_spacing) * number;
+    const auto [sine, cosine] = numeric::sin_cos(yaw);
+    return {{rig.position.x - along * sine, rig.position.y + along * cosine, numeric::widened(rig.altitude)}, yaw};
 }
 
 /// All pings of the rig's track, in order.
