@@ -7,8 +7,8 @@
 //     #define INSONIFY_COMPILED           // in all others, or -DINSONIFY_COMPILED; CMake: link insonify::compiled
 //     #include <insonify/insonify.hpp>
 //
-// The lists below say what is compiled once. Other shadow policies, laws and seabeds work too: include the header that
-// draws with them (sonar/overhead/render.hpp), and the unit compiles what the lists lack.
+// The lists below name what is compiled once. To use other shadow policies, laws and seabeds, include the header that
+// draws with them (sonar/overhead/render.hpp): a unit compiles for itself whatever the lists do not name.
 #pragma once
 
 #include <insonify/config.hpp>

@@ -9,8 +9,8 @@
 //
 // Three inline namespaces keep apart what the linker must not merge:
 //   INSONIFY_ABI    the version. Public types are there, so that they pass between units whatever their flags.
-//   INSONIFY_FLAGS  inside it, what changes the code behind a symbol: functions, and classes that compute. A unit's
-//                   calls never end in a copy that another unit compiled for another processor, or with other checks.
+//   INSONIFY_FLAGS  nested in it, named after the flags that change generated code. Holds functions, and classes that
+//                   compute: no call links to a copy that another unit compiled for another processor or other checks.
 //   INSONIFY_ONCE   functions that the compiled form compiles once: there a fixed name, else INSONIFY_FLAGS.
 #pragma once
 
@@ -22,11 +22,11 @@
 
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
     (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "insonify promises the same bytes everywhere and cannot keep that under -ffast-math: compile without it."
+#error "insonify's results are bit-identical on all platforms, which -ffast-math breaks: compile without it."
 #endif
 
 #if defined(__FLT_EVAL_METHOD__) && (__FLT_EVAL_METHOD__ == 2 || __FLT_EVAL_METHOD__ < 0)
-#error "insonify promises the same bytes everywhere, which x87 arithmetic breaks: compile with -msse2 -mfpmath=sse."
+#error "insonify's results are bit-identical on all platforms, which x87 arithmetic breaks: use -msse2 -mfpmath=sse."
 #endif
 
 #if !defined(INSONIFY_SIMD)
@@ -42,10 +42,10 @@
 #define INSONIFY_ASSERT(condition) assert(condition)
 #endif
 
-// Fused multiply-add rounds once where a product and a sum round twice, so a compiler that may fuse changes bytes.
-// Headers with floating-point arithmetic are enclosed by these two macros, which forbid it under any flags. (clang
-// ignores the pragma under an explicit -ffp-contract=fast, but not under fast-honor-pragmas.) They also suppress g++'s
-// note on the ABI of wide vectors, which are passed only within always-inlined code.
+// Fused multiply-add rounds once where a product and a sum round twice, so contraction changes results. These two
+// macros enclose every header with floating-point arithmetic and disable contraction whatever the flags, except that
+// clang ignores the pragma under an explicit -ffp-contract=fast (not under fast-honor-pragmas). They also suppress
+// g++'s note on the ABI of wide vectors, which are passed only within always-inlined code.
 #if defined(__clang__) && !defined(__x86_64__) && !defined(__i386__)
 // clang has float_control on x86 alone. WebAssembly has no fused instruction.
 #if defined(__wasm__)
@@ -100,9 +100,9 @@
 #define INSONIFY_DISPATCH 0
 #endif
 
-// Whether all calls of a kernel are inlined into one function. With 0, programs compile a little faster and run several
-// times longer, with the same bytes. The default is 0 without optimization and under sanitizers, whose instrumentation
-// would take minutes to compile.
+// INSONIFY_WHOLE_KERNELS, which a program may define: with 1, all calls of a kernel are inlined into one function. With
+// 0, programs compile a little faster and run several times longer, with the same bytes. The default is 0 without
+// optimization and under sanitizers, whose instrumentation would take minutes to compile.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define INSONIFY_SANITIZED 1
 #elif defined(__has_feature)
@@ -133,8 +133,8 @@
 #define INSONIFY_RARE
 #endif
 
-// Functions of targets that could fuse products with sums, for g++ without -ffp-contract=off; for clang,
-// INSONIFY_ARITHMETIC_BEGIN turns that off.
+// For functions whose target attribute adds fused multiply-add, where g++ would contract products and sums. For clang,
+// INSONIFY_ARITHMETIC_BEGIN is enough.
 #if defined(__GNUC__) && !defined(__clang__)
 #define INSONIFY_NEVER_FUSED __attribute__((optimize("fp-contract=off")))
 #else

@@ -1,9 +1,10 @@
-// Declares the public types, for headers that name them: no other header of the library, nor GLM, is included.
+// Declares the common public types, for headers that only name them. Includes config.hpp alone: no other header of the
+// library, no GLM.
 //
 //     #include <insonify/fwd.hpp>
 //     insonify::frame<> draw_pipeline(const insonify::scene& survey, const insonify::overhead& rig);
 //
-// Filters and seabeds are plain values; those that compute carry the flags of their unit and are not listed.
+// Of filters and seabeds, only the most used are listed; include the header of any other.
 #pragma once
 
 #include <insonify/config.hpp>

@@ -1,8 +1,8 @@
 // Umbrella header: scenes of targets on a seabed, overhead pictures of them, and filters. The same in both forms (see
 // compiled.hpp).
 //
-// Everything else, side-scan recordings, further objects and seabeds, `draw` and shadow policies of your own, is in
-// headers to include by name, so that programs without it don't compile it. all.hpp includes them all.
+// Everything else (side-scan recordings, further objects and seabeds, `draw`, custom shadow policies) is in headers to
+// include by name, so that programs that don't use it don't compile it. all.hpp includes almost all of them.
 #pragma once
 
 #include <insonify/config.hpp>

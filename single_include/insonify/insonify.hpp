@@ -45,8 +45,8 @@
 //
 // Three inline namespaces keep apart what the linker must not merge:
 //   INSONIFY_ABI    the version. Public types are there, so that they pass between units whatever their flags.
-//   INSONIFY_FLAGS  inside it, what changes the code behind a symbol: functions, and classes that compute. A unit's
-//                   calls never end in a copy that another unit compiled for another processor, or with other checks.
+//   INSONIFY_FLAGS  nested in it, named after the flags that change generated code. Holds functions, and classes that
+//                   compute: no call links to a copy that another unit compiled for another processor or other checks.
 //   INSONIFY_ONCE   functions that the compiled form compiles once: there a fixed name, else INSONIFY_FLAGS.
 
 #if defined(_MSVC_LANG) ? _MSVC_LANG < 202002L : __cplusplus < 202002L
@@ -55,11 +55,11 @@
 
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
     (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "insonify promises the same bytes everywhere and cannot keep that under -ffast-math: compile without it."
+#error "insonify's results are bit-identical on all platforms, which -ffast-math breaks: compile without it."
 #endif
 
 #if defined(__FLT_EVAL_METHOD__) && (__FLT_EVAL_METHOD__ == 2 || __FLT_EVAL_METHOD__ < 0)
-#error "insonify promises the same bytes everywhere, which x87 arithmetic breaks: compile with -msse2 -mfpmath=sse."
+#error "insonify's results are bit-identical on all platforms, which x87 arithmetic breaks: use -msse2 -mfpmath=sse."
 #endif
 
 #if !defined(INSONIFY_SIMD)
@@ -75,10 +75,10 @@
 #define INSONIFY_ASSERT(condition) assert(condition)
 #endif
 
-// Fused multiply-add rounds once where a product and a sum round twice, so a compiler that may fuse changes bytes.
-// Headers with floating-point arithmetic are enclosed by these two macros, which forbid it under any flags. (clang
-// ignores the pragma under an explicit -ffp-contract=fast, but not under fast-honor-pragmas.) They also suppress g++'s
-// note on the ABI of wide vectors, which are passed only within always-inlined code.
+// Fused multiply-add rounds once where a product and a sum round twice, so contraction changes results. These two
+// macros enclose every header with floating-point arithmetic and disable contraction whatever the flags, except that
+// clang ignores the pragma under an explicit -ffp-contract=fast (not under fast-honor-pragmas). They also suppress
+// g++'s note on the ABI of wide vectors, which are passed only within always-inlined code.
 #if defined(__clang__) && !defined(__x86_64__) && !defined(__i386__)
 // clang has float_control on x86 alone. WebAssembly has no fused instruction.
 #if defined(__wasm__)
@@ -133,9 +133,9 @@
 #define INSONIFY_DISPATCH 0
 #endif
 
-// Whether all calls of a kernel are inlined into one function. With 0, programs compile a little faster and run several
-// times longer, with the same bytes. The default is 0 without optimization and under sanitizers, whose instrumentation
-// would take minutes to compile.
+// INSONIFY_WHOLE_KERNELS, which a program may define: with 1, all calls of a kernel are inlined into one function. With
+// 0, programs compile a little faster and run several times longer, with the same bytes. The default is 0 without
+// optimization and under sanitizers, whose instrumentation would take minutes to compile.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define INSONIFY_SANITIZED 1
 #elif defined(__has_feature)
@@ -166,8 +166,8 @@
 #define INSONIFY_RARE
 #endif
 
-// Functions of targets that could fuse products with sums, for g++ without -ffp-contract=off; for clang,
-// INSONIFY_ARITHMETIC_BEGIN turns that off.
+// For functions whose target attribute adds fused multiply-add, where g++ would contract products and sums. For clang,
+// INSONIFY_ARITHMETIC_BEGIN is enough.
 #if defined(__GNUC__) && !defined(__clang__)
 #define INSONIFY_NEVER_FUSED __attribute__((optimize("fp-contract=off")))
 #else
@@ -292,8 +292,8 @@ class block_pool {
         return memory;
     }
 
-    /// Keeps a block for later. The oldest ones are freed so that kept blocks and those in use together take at most
-    /// half as much again as was ever in use at once.
+    /// Keeps a block for later. Frees the oldest kept ones so that kept blocks and those in use together stay within
+    /// 1.5 times the peak in use since the last release.
     INSONIFY_TAGGED void deallocate(void* memory, std::size_t bytes) noexcept {
         const std::size_t size = size_class(bytes);
         const guard lock(busy_);
@@ -509,7 +509,7 @@ template <class Error>
 template <class T>
 concept arithmetic = std::is_arithmetic_v<T>;
 
-/// Shortest text that reads back as the same number, without the locale.
+/// Shortest text that reads back as the same number, whatever the locale.
 template <arithmetic Number>
 std::string to_text(Number value) {
     if constexpr (std::is_same_v<Number, bool>) {
@@ -651,7 +651,7 @@ inline namespace INSONIFY_ABI {
 ///     for (const in::scene& scene : scenes) save(in::render(scene, rig, {}, context));
 ///
 /// Results are ordinary values: they may outlive the context, be destroyed on another thread, and their copies
-/// allocate afresh. The context holds at most half as much again as was in use at once.
+/// allocate afresh. Memory kept and in use together never exceeds 1.5 times the peak in use.
 class context {
   public:
     /// Runs everything on the calling thread.
@@ -704,7 +704,7 @@ namespace detail {
 /// Constructor tag: elements are left uninitialized.
 struct uninitialized {};
 
-/// Raw memory: of a pool if one is given and at least 64 KB are wanted, else of the heap.
+/// Raw memory, from the pool if there is one and the size is at least 64 KiB, else from the heap.
 class memory_block {
   public:
     INSONIFY_MEMBER memory_block() noexcept {}
@@ -777,10 +777,10 @@ class uninitialized_array {
     }
     INSONIFY_MEMBER ~uninitialized_array() { std::destroy_n(data(), size_); }
 
-    /// Discards all elements, for others.
+    /// Discards all elements and creates `count` new ones.
     /// @throws std::bad_alloc
     INSONIFY_TAGGED void resize(std::size_t count) {
-        // No machine has the bytes of the largest count, so that it fails as other large ones do.
+        // Counts whose bytes would overflow are clamped to a size that no machine has, so that they throw too.
         constexpr std::size_t largest = PTRDIFF_MAX / sizeof(T);
         const std::size_t bytes = (std::min)(count, largest) * sizeof(T);
         std::destroy_n(data(), size_);
@@ -877,10 +877,10 @@ class image_view {
     /// The part of the view that starts at (x, y); shares the pixels.
     /// @throws invalid_input if the part is not inside the view
     INSONIFY_TAGGED image_view part(int x, int y, int width, int height) const {
-        detail::require(x >= 0 && x <= width_, "x", x, "a column of the view");
-        detail::require(y >= 0 && y <= height_, "y", y, "a row of the view");
-        detail::require(width >= 0 && width <= width_ - x, "width", width, "a part inside the view");
-        detail::require(height >= 0 && height <= height_ - y, "height", height, "a part inside the view");
+        detail::require(x >= 0 && x <= width_, "x", x, "0 to the width of the view");
+        detail::require(y >= 0 && y <= height_, "y", y, "0 to the height of the view");
+        detail::require(width >= 0 && width <= width_ - x, "width", width, "0 to the view's width less x");
+        detail::require(height >= 0 && height <= height_ - y, "height", height, "0 to the view's height less y");
         return {data_ + y * stride_ + x, width, height, stride_};
     }
 
@@ -919,7 +919,7 @@ class image {
 
     image() = default;
 
-    /// @param width, height  pixels, each in [0, 2^30], together at most 2^40
+    /// @param width, height  pixels, each in [0, 2^30]; width x height at most 2^40
     /// @throws invalid_input for a size outside that range
     INSONIFY_MEMBER image(int width, int height, T fill = T{})
         : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area(), fill) {}
@@ -1149,8 +1149,8 @@ constexpr double to_radians(double degrees) {
 constexpr double to_degrees(double radians) {
     return radians * (180 / pi);
 }
-/// A float as a double, where users may have rounded it from one. g++ 12 vectorizes pairs of conversions and then drops
-/// the rounding (at -O2, a rig at 0.1f stood at 0.1); it can't see through this one.
+/// Converts a float to double behind an optimization barrier, for values that callers may have rounded from a double:
+/// g++ 12 at -O2 vectorizes pairs of such conversions and drops the rounding (a rig at 0.1f ended up at 0.1).
 inline double widened(float value) {
 #if defined(__GNUC__) && !defined(__clang__)
     __asm__("" : "+g"(value));
@@ -1357,7 +1357,7 @@ inline namespace INSONIFY_ABI {
 
 /// Instruction sets that kernels are compiled for, slowest first.
 enum class isa {
-    scalar,    ///< one value at a time: builds with INSONIFY_SIMD=0; others take it for `baseline`
+    scalar,    ///< one value at a time, in builds with INSONIFY_SIMD=0; other builds use `baseline` instead
     baseline,  ///< the 128-bit vectors that every processor of the target has (SSE2, NEON)
     avx2,      ///< 256-bit integer and float vectors
     avx512,    ///< 512-bit ones (F, BW, DQ and VL), for kernels that gain by them
@@ -1655,8 +1655,8 @@ concept countable_pixel = std::same_as<T, float> || pixel_code<T>;
 
 inline namespace INSONIFY_FLAGS {
 
-/// The code nearest to `value`, 1 being the largest code; ties go up, values outside [0, 1] to the end they passed,
-/// NaN to 0.
+/// Rounds `value` to the nearest code, where 1 is the largest code. Ties round up, values outside [0, 1] are clamped,
+/// NaN gives 0.
 template <pixel_code Code>
 constexpr Code quantize(float value) {
     constexpr double largest = (std::numeric_limits<Code>::max)();
@@ -1790,7 +1790,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Converts an integer below 2^52: as the mantissa of a double of 2^52, it adds its value.
+/// Converts integers below 2^52: puts them into the mantissa of 2^52, then subtracts 2^52.
 template <int N>
 INSONIFY_INLINE void to_double(lanes<double, N>& into, const lanes<std::uint64_t, N>& number) {
     const lanes<std::uint64_t, N> bits = number | std::uint64_t{0x4330000000000000u};
@@ -2032,9 +2032,9 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/core/simd/random_lanes.hpp -------------------------------------------------------
 // SIMD versions of random.hpp: Philox blocks, uniform and normal draws, as doubles and as floats.
 //
-// Doubles are the draws of random.hpp to the same bits. Floats follow the same law to a float's rounding: a normal draw
-// differs by less than 6e-7 from exact arithmetic on its two words, and no probability by more than 6e-8. Both give the
-// same bits at every N.
+// Doubles are bit-identical to the draws of random.hpp. Floats have the same distribution up to rounding: a normal draw
+// differs by less than 6e-7 from exact arithmetic on its two words, and no probability differs by more than 6e-8. Both
+// give the same bits at every N.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -2243,7 +2243,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Input of philox4x32 beside the key: pixel, cell or sample numbers.
+/// Input of philox4x32 besides the key: pixel, cell or sample numbers.
 using philox_counter = std::array<std::uint32_t, 4>;
 /// The key of a stream of random words, from `stream_key`.
 using philox_key = std::array<std::uint32_t, 2>;
@@ -2604,9 +2604,9 @@ struct to_unit {
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// [0, 1] -> 0 ... 255 or 65535, rounded to nearest; values outside are clamped, NaN becomes 0.
+/// [0, 1] -> 0 ... 255, rounded to nearest; values outside are clamped, NaN becomes 0.
 inline constexpr detail::to_code<std::uint8_t> to_uint8{};
-/// The same with 16 bits.
+/// [0, 1] -> 0 ... 65535, in the same way.
 inline constexpr detail::to_code<std::uint16_t> to_uint16{};
 
 /// 0 ... 255 or 65535 -> [0, 1]; `to_uint8` or `to_uint16` is its exact inverse.
@@ -2618,8 +2618,8 @@ inline constexpr detail::to_unit to_float{};
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/detail/correlation.hpp ------------------------------------------------------
-// Filters that turn white Gaussian noise into noise with a Gaussian autocorrelation exp(-(d / length)^2), exact at
-// every whole distance d and for every length.
+// Filters that turn white Gaussian noise into noise with a Gaussian autocorrelation exp(-(d / length)^2), to within
+// 0.003 at every whole distance d: the taps are truncated at 1.5 length + 3.
 
 #include <vector>
 
@@ -2772,7 +2772,7 @@ inline double mean_of_rice(double steady) {
 }
 
 /// Correlation length of the Gaussian field whose intensities have a correlation of 1 / e at `length`.
-/// @param of_field  correlation of the intensities for one of the field; rises from 0 at 0 to 1 at 1
+/// @param of_field  correlation of the intensities as a function of the field's; rises from 0 at 0 to 1 at 1
 template <class Law>
 double field_length(double length, const Law& of_field) {
     double low = 0, high = 1;
@@ -2842,7 +2842,7 @@ struct taps_along_row {
     }
 };
 
-/// into[i] = sum over k of the taps' |k - middle| times rows[k][i]
+/// into[i] = sum over k of taps[|k - middle|] rows[k][i]
 struct taps_across_rows {
     std::span<const float> taps;         ///< half of them, from the middle outwards
     std::span<const float* const> rows;  ///< 2 taps.size() - 1
@@ -3133,12 +3133,12 @@ class parameter {
     /// @throws invalid_input for no values
     INSONIFY_MEMBER parameter(image_view<const std::uint8_t> types, std::vector<float> values)
         : values_(std::move(values)), types_(types), by_type_(true) {
-        detail::require(!values_.empty(), "values of a parameter by type", values_.size(), "at least 1");
+        detail::require(!values_.empty(), "number of values by type", values_.size(), "at least 1");
     }
 
     INSONIFY_MEMBER bool is_constant() const { return !by_type_ && !values_.empty(); }
 
-    /// The number of all pixels. @pre is_constant()
+    /// The value that all pixels share. @pre is_constant()
     INSONIFY_MEMBER float value() const { return values_.front(); }
 
     /// Sets the image's origin and size before the first call of `row`.
@@ -3208,7 +3208,7 @@ inline void require_correlation(const char* name, const correlation_length& leng
 }
 
 /// Standard normal draws, one for each pixel and field, correlated along rows and columns. A draw depends on the
-/// pixel's place alone. Consecutive rows share the rows that both filter.
+/// pixel's position alone. Consecutive rows reuse the blurred rows that both need.
 class correlated_draws {
   public:
     /// @param x, y  taps of the filters along rows and columns
@@ -3352,7 +3352,7 @@ class gamma_texture {
         }
     }
 
-    /// Powers of the series in Hermite polynomials; what they leave of the variance counts as the last term.
+    /// Powers of the terms of the Hermite series; the variance that they leave is added to the last one.
     void expand(double shape) {
         std::array<double, terms> coefficient{};
         for (std::size_t knot = 0; knot < knots; ++knot) {
@@ -3721,14 +3721,14 @@ struct rayleigh {
 struct gamma_speckle {
     parameter looks = 4;  ///< 0.01 to 1e6, not only whole numbers; 1 is Rayleigh
     echo of = echo::amplitude;
-    correlation_length correlation{};  ///< for whole looks, 1 to 64, that are the same for all pixels
+    correlation_length correlation{};  ///< if not 0, `looks` must be one whole number, 1 to 64, for all pixels
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;  ///< which image of a set
 
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for looks outside 0.01 to 1e6, or a correlation length outside 0 to 16; on application,
-    ///         for a map of another size than the image
+    /// @throws invalid_input for looks outside 0.01 to 1e6, a correlation length outside 0 to 16, or correlation with
+    ///         looks other than one whole number from 1 to 64; on application, for a map of another size than the image
     INSONIFY_TAGGED auto pass() const {
         detail::check_shape("gamma_speckle.looks", looks);
         detail::require_correlation("gamma_speckle.correlation", correlation);
@@ -3737,21 +3737,23 @@ struct gamma_speckle {
     }
 };
 
-/// The K-distribution: speckle whose mean intensity is itself gamma-distributed from pixel to pixel; for one look,
-/// variance / mean^2 of the intensity is 1 + 2 / shape. Rock has shapes of 0.5 to 2, gravel to 4, sand 8 to 20.
+/// The K-distribution: speckle whose mean intensity is itself gamma-distributed from pixel to pixel. For one look,
+/// variance / mean^2 of the intensity is 1 + 2 / shape. Typical shapes: rock 0.5 to 2, gravel 2 to 4, sand 8 to 20.
 struct k_speckle {
     parameter shape = 4;  ///< of the mean, 0.01 to 1e6
     float looks = 1;      ///< 0.01 to 1e6
     echo of = echo::amplitude;
-    /// For whole looks, 1 to 64. With a map of shapes, the length is that of the speckle, under a white texture.
+    /// If not 0, `looks` must be a whole number, 1 to 64. With a map of shapes, only the speckle is correlated; the
+    /// texture stays white.
     correlation_length correlation{};
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;  ///< which image of a set
 
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for a shape or looks outside 0.01 to 1e6, or a correlation length outside 0 to 16; on
-    ///         application, for a map of another size than the image
+    /// @throws invalid_input for a shape or looks outside 0.01 to 1e6, a correlation length outside 0 to 16, or
+    ///         correlation with looks other than a whole number from 1 to 64; on application, for a map of another size
+    ///         than the image
     INSONIFY_TAGGED auto pass() const {
         detail::check_shape("k_speckle.shape", shape);
         detail::check_shape("k_speckle.looks", looks);
@@ -4087,7 +4089,7 @@ INSONIFY_ARITHMETIC_END
 // Histograms with bins of equal width, and two filters of MATLAB's: histogram equalization and matching.
 //
 // NaN is not counted and stays NaN. By MATLAB's rule, a constant image becomes the level at which the cumulative share
-// of the wanted histogram reaches one half, or 1 if the image is at level 0 or the last level.
+// of the target histogram reaches one half, or its highest occupied level if the image is at level 0 or the last level.
 //
 // Based on: MathWorks. Image Processing Toolbox, imhist, histeq, imhistmatch (64 bins, 256 source levels, 65536 for
 // codes of 16 bits).
@@ -4114,8 +4116,8 @@ struct histogram {
 
     /// @throws invalid_input for another number of bins
     INSONIFY_TAGGED histogram& operator+=(const histogram& other) {
-        detail::require(other.counts.size() == counts.size(), "bins of the histogram to add", other.counts.size(),
-                        "those of the sum");
+        detail::require(other.counts.size() == counts.size(), "bin count of the added histogram", other.counts.size(),
+                        "that of the sum");
         for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
         return *this;
     }
@@ -4179,7 +4181,7 @@ class match_binned {
   public:
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for a reference without a number in it, or bins outside 2 to 65536
+    /// @throws invalid_input for a reference that is empty or all NaN, or bins outside 2 to 65536
     template <countable_pixel Pixel>
     INSONIFY_MEMBER explicit match_binned(image_view<const Pixel> reference, int bins = 64)
         : match_binned(histogram_of(reference, bins)) {}
@@ -4191,7 +4193,7 @@ class match_binned {
     INSONIFY_MEMBER explicit match_binned(histogram wanted) : wanted_(std::move(wanted)) {
         detail::require(wanted_.counts.size() >= 2 && wanted_.counts.size() <= 65536, "wanted.counts.size()",
                         wanted_.counts.size(), "2 to 65536");
-        detail::require(wanted_.total() > 0, "pixels in the reference", wanted_.total(), "at least 1");
+        detail::require(wanted_.total() > 0, "number of pixels in the reference", wanted_.total(), "at least 1");
     }
 
     template <countable_pixel Pixel, executor_argument E = serial_executor>
@@ -4579,7 +4581,7 @@ class scaled_law {
     std::optional<correlated_draws> correlated_;
 };
 
-/// Strikes a pixel if a number p, uniform in (0, 1], is below the density: black below half of it, else white.
+/// Replaces a pixel where p, uniform in (0, 1], is below the density: by black below half the density, else by white.
 struct struck_pixel {
     template <int N>
     INSONIFY_INLINE void apply(lanes<float, N>& value, const lanes<float, N>& p, const lanes<float, N>& density) const {
@@ -5182,8 +5184,8 @@ struct where_filter {
     }
 };
 
-/// Applies a filter where `mask` is not 0; the other pixels stay. Measured filters measure the masked pixels alone. An
-/// empty mask leaves the image as it is.
+/// Applies a filter where `mask` is not 0; the other pixels are unchanged. Measured filters measure the masked pixels
+/// alone. A mask of zeros leaves the image unchanged.
 ///
 ///     image | where(is_seabed, match_histogram(pixels_where(reference_mask, reference)))
 ///
@@ -5211,12 +5213,13 @@ filter_chain<where_filter<Stages>...> where(image_view<const std::uint8_t> mask,
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/fwd.hpp --------------------------------------------------------------------------
-// Declares the public types, for headers that name them: no other header of the library, nor GLM, is included.
+// Declares the common public types, for headers that only name them. Includes config.hpp alone: no other header of the
+// library, no GLM.
 //
 //     #include <insonify/fwd.hpp>
 //     insonify::frame<> draw_pipeline(const insonify::scene& survey, const insonify::overhead& rig);
 //
-// Filters and seabeds are plain values; those that compute carry the flags of their unit and are not listed.
+// Of filters and seabeds, only the most used are listed; include the header of any other.
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
@@ -7013,7 +7016,7 @@ inline std::string file_bytes(const std::string& path) {
 }  // namespace insonify
 
 // ------------ insonify/io/file.hpp ----------------------------------------------------------------------
-// Whole-file reads and atomic writes: a reader finds the old file or the new one, never a part.
+// Whole-file reads and atomic writes: a reader sees the old file or the new one, never a partial one.
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <fcntl.h>
@@ -7111,7 +7114,7 @@ class replacement_file {
     }
 
     /// Call once, at the end.
-    /// @throws io_error if a write failed, or the file can't be brought to disk or into place
+    /// @throws io_error if a write failed, or the file can't be synced to disk or renamed
     void commit() {
         errno = 0;
         const bool written = error_ == 0 && detail::sync_to_disk(file_.get());
@@ -7333,10 +7336,10 @@ concept storable_pixel = detail::netpbm_sample<typename detail::netpbm_pixel<T>:
 
 inline namespace INSONIFY_FLAGS {
 
-/// The image in the bytes of a netpbm file; the table at the top says which formats a pixel type takes. Bytes behind
-/// the image are ignored, as is the size of a PFM's scale.
-/// @param name  what error messages call the bytes
-/// @throws io_error for bytes that are no such file, or one that doesn't fit the pixel type
+/// Parses the image in the bytes of a netpbm file; the table at the top lists the formats that each pixel type accepts.
+/// Bytes after the image are ignored, as is the absolute value of a PFM's scale.
+/// @param name  of the data, for error messages
+/// @throws io_error if the bytes are not a netpbm file, or its format doesn't fit the pixel type
 template <storable_pixel Pixel>
 image<Pixel> parse_netpbm(std::string_view bytes, std::string_view name = "netpbm data") {
     using sample = typename detail::netpbm_pixel<Pixel>::sample;
@@ -7460,7 +7463,7 @@ enum class depth_precision {
     quick,  ///< in float: within a few units in the last place, clamped to the vertices' depths; a third less time
 };
 
-/// `tile` and `level` never change the result.
+/// Options of a draw. `tile` and `level` never change the result.
 template <depth_precision Depth = depth_precision::exact>
 struct draw_options {
     cull_mode cull = cull_mode::none;
@@ -9991,7 +9994,7 @@ struct points {
     std::span<const std::uint32_t> mesh;      ///< index of the caster that a point lies on, or invalid_id
     std::span<const std::uint32_t> triangle;  ///< of that caster; it does not block its own points
     std::uint32_t casters = invalid_id;       ///< only casters with a lower index are tested
-    bool face_light = true;                   ///< facets of the points face the light; if not, only `caster` is used
+    bool face_light = true;                   ///< facets of the points face the light; if not, `lit` is ignored
 
     INSONIFY_MEMBER std::size_t size() const { return x.size(); }
     INSONIFY_MEMBER glm::dvec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
@@ -10089,14 +10092,14 @@ inline constexpr std::size_t max_batch = 65536;  ///< points, see collective_occ
 inline constexpr float unknown = -1;             ///< in results::lit, between screening and testing
 
 /// Result of a test that may leave a triangle or a point undecided.
-enum class known : std::uint8_t { lit, dark, nothing };
+enum class decision : std::uint8_t { lit, dark, undecided };
 
-/// A collective occlusion that decides whole triangles: `structure.known_triangles(caster, eye, executor)` returns a
+/// A collective occlusion that decides whole triangles: `structure.decide_triangles(caster, eye, executor)` returns a
 /// result for each triangle of a caster as seen by the camera, or an empty vector.
 template <class S>
 concept triangle_occlusion = collective_occlusion<S> &&
     requires(const S& structure, std::uint32_t caster, const glm::dvec3& eye, serial_executor& ex) {
-    { structure.known_triangles(caster, eye, ex) } -> std::same_as<insonify::detail::uninitialized_array<known>>;
+    { structure.decide_triangles(caster, eye, ex) } -> std::same_as<insonify::detail::uninitialized_array<decision>>;
 };
 
 }  // namespace shadow
@@ -11186,8 +11189,7 @@ struct tile_grid {
           rows((height + (1 << log2_tile) - 1) >> log2_tile) {}
 
     std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
-    /// Tiles that one call of an executor takes, so that they share memory; in small pictures one, so that there are
-    /// calls for every thread.
+    /// Tiles per call of the executor, which share one buffer; one in small pictures, so that every thread gets work.
     std::size_t run() const { return count() < 64 ? 1 : 4; }
     /// The pixels of a tile, clipped to the image.
     rect pixels(std::size_t tile, int width, int height) const {
@@ -11377,7 +11379,7 @@ struct int128 {
     /// -1, 0 or 1.
     constexpr int sign() const { return high < 0 ? -1 : (high > 0 || low > 0) ? 1 : 0; }
 
-    /// Divided by 2^bits, 0 < bits < 64, rounded down; what does not fit 64 bits becomes the end of their range.
+    /// Divides by 2^bits, 0 < bits < 64, rounding down, and saturates to 64 bits.
     constexpr std::int64_t shifted_down(int bits) const {
         constexpr auto top = (std::numeric_limits<std::int64_t>::max)();
         constexpr auto bottom = (std::numeric_limits<std::int64_t>::min)();
@@ -11537,7 +11539,7 @@ struct pixel_grid {
     std::int64_t half() const { return std::int64_t{1} << (subpixel_bits - 1); }
     std::int64_t center(int pixel) const { return pixel * unit() + half(); }
     /// The first pixel of an axis whose centre is at a coordinate or beyond, clamped to [0, extent]. By the fill rule
-    /// this is also the end of the pixels in front of a high coordinate.
+    /// this is also the exclusive end of the pixels below an upper bound.
     int first_center(std::int64_t coordinate, int extent) const {
         return static_cast<int>(std::clamp<std::int64_t>((coordinate + half() - 1) >> subpixel_bits, 0, extent));
     }
@@ -11591,7 +11593,7 @@ inline bool is_outside(const rect& centers, const pixel_grid& grid) {
     return centers.x0 == grid.width || centers.y0 == grid.height || centers.x1 == 0 || centers.y1 == 0;
 }
 
-/// E(x, y) >= 0 at the centre of pixel (x, y) exactly if the pixel is on the inner side, fill rule included.
+/// E(x, y) >= 0 at the centre of pixel (x, y) if and only if the pixel is on the inner side, fill rule included.
 struct edge_function {
     std::int64_t origin;  ///< E at the first pixel of the rectangle that it was set up for
     std::int64_t dx, dy;  ///< per pixel to the right and down
@@ -12315,7 +12317,7 @@ struct vertex {
     std::uint32_t index;
 };
 
-/// Output of a vertex shader that has varyings. Visible is -w <= x <= w, -w <= y <= w (y up), 0 <= z <= w.
+/// Output of a vertex shader that has varyings. The view volume is -w <= x <= w, -w <= y <= w (y up), 0 <= z <= w.
 template <class Varyings>
 struct placed_vertex {
     glm::vec4 clip;
@@ -12711,7 +12713,7 @@ struct assembly_kernel;
 
 /// A mesh on the screen: vertices, wide triangles, and bins that refer to triangles by id. The id of a compact triangle
 /// is its index in the mesh; those of wide triangles follow, in submission order.
-/// @param Real  of depths: double for exact ones, float for quick ones
+/// @tparam Real  type of depths: double for exact ones, float for quick ones
 template <class Real>
 class screen_mesh {
   public:
@@ -13516,7 +13518,7 @@ template <class T, int N>
 using pixel_lanes = detail::lanes<T, N>;
 
 /// N adjacent pixels of a row, of which some may not be visible. Shaders take it by reference and pass lanes on by
-/// reference only: wide vectors are passed by value in other registers where another instruction set is compiled for.
+/// reference only: the calling convention of wide vectors depends on the instruction set that is compiled for.
 template <int N, class Varyings>
 class fragment_lanes {
   public:
@@ -13929,12 +13931,12 @@ inline namespace INSONIFY_FLAGS {
 ///
 /// @param m        a mesh, or a view of your own buffers; at most 2^32 - 2 triangles
 /// @param shader   vertex_shader or vertex_lane_shader
-/// @param target   depth image of up to 2^22 pixels a side
+/// @param target   depth image; each side at most 2^(30 - subpixel_bits) pixels and 2^16 tiles (2^22 pixels by default)
 /// @param options  see draw_options; `draw_options<depth_precision::quick>` for depths in float
 /// @param ex       runs the stages; the result is the same bytes for any executor
-/// @returns the triangles by what happened to them
-/// @throws invalid_input for an index without a position, a number of normals that isn't that of positions, or options
-///         out of range; the target is then untouched
+/// @returns the number of triangles by outcome, and of shaded pixels
+/// @throws invalid_input for an index without a position, a number of normals that is neither 0 nor that of positions,
+///         or options out of range; the target is then untouched
 template <vertex_shader VertexShader, depth_precision Depth = depth_precision::exact,
           executor_argument E = serial_executor>
 draw_stats draw(const mesh_view& m, const VertexShader& shader, const depth_target& target,
@@ -14004,7 +14006,7 @@ draw_stats draw(const mesh_view& m, const VertexShader& vertex_shader, const Lan
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/shadow/detail/blocking.hpp -------------------------------------------------------
-// Whether a triangle blocks the light of a point, decided in doubles: the rule that everything faster has to obey.
+// Whether a triangle blocks the light of a point, decided in doubles: the reference that every faster test reproduces.
 //
 // A triangle blocks a point's ray towards the light if the ray passes through it, edges included, and the point lies
 // behind it by more than rounding can have moved either (2^-40 of the scene's size). There is no bias. Corners are
@@ -14047,7 +14049,8 @@ class light_rays {
     bool are_blocked(const glm::dvec3& corner_a, const glm::dvec3& corner_b, const glm::dvec3& corner_c,
                      const glm::dvec3& from) const {
         const glm::dvec3 to_light = toward(from), a = corner_a - from, b = corner_b - from, c = corner_c - from;
-        // The corners as the ray sees them, along the two axes that it follows less: one rounding for each corner.
+        // Corners sheared along the ray, in the two axes of its smaller components. A corner that triangles share is
+        // rounded alike for each.
         const glm::dvec3 way{numeric::abs(to_light.x), numeric::abs(to_light.y), numeric::abs(to_light.z)};
         const int axis = way.x >= way.y ? (way.x >= way.z ? 0 : 2) : (way.y >= way.z ? 1 : 2);
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -14063,7 +14066,7 @@ class light_rays {
         const bool is_left = bc >= 0 && ca >= 0 && ab >= 0, is_right = bc <= 0 && ca <= 0 && ab <= 0;
         if (!is_left && !is_right) return false;
         const glm::dvec3 normal = numeric::cross(b - a, c - a);
-        // From the corner that is nearest: another may lie so far off that its distance rounds away the point's.
+        // Measured from the nearest corner: the rounding error of a distant one may exceed the point's distance.
         const auto size = [](const glm::dvec3& d) { return numeric::abs(d.x) + numeric::abs(d.y) + numeric::abs(d.z); };
         const glm::dvec3& some = size(a) <= size(b) ? a : b;
         const double along = numeric::dot(normal, to_light),
@@ -14088,7 +14091,8 @@ class light_rays {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/shadow/detail/lit_grid.hpp -------------------------------------------------------
-// A regular grid turned so that parallel light travels along its columns, and its heights along the light's rays.
+// A regular grid re-indexed so that parallel light crosses its columns in ascending order, and its heights along the
+// light's rays.
 //
 // In grid steps, all points of a ray have the same u = X + drop z, the X at which the ray meets z = 0.
 
@@ -14246,7 +14250,7 @@ struct horizon_bound {
 
 /// Computes the bounds of adjacent strips, column by column: neighbours read the same heights.
 struct horizon_kernel {
-    static constexpr int most = 64;  ///< strips
+    static constexpr int max_strips = 64;
 
     const lit_grid& grid;
     const grid_heights& heights;
@@ -14279,18 +14283,18 @@ struct horizon_kernel {
     }
 
   private:
-    static constexpr int room = most + 2 * 16;  ///< rows around the strips, in whole vectors
+    static constexpr int room = max_strips + 2 * 16;  ///< rows around the strips, in whole vectors
 
     struct bounds_so_far {
-        float dark_below[static_cast<unsigned>(most)], lit_above[static_cast<unsigned>(most)];
+        float dark_below[static_cast<unsigned>(max_strips)], lit_above[static_cast<unsigned>(max_strips)];
 
         bounds_so_far() {
-            std::fill_n(dark_below, most, grid_heights::nothing);
-            std::fill_n(lit_above, most, grid_heights::nothing);
+            std::fill_n(dark_below, max_strips, grid_heights::nothing);
+            std::fill_n(lit_above, max_strips, grid_heights::nothing);
         }
     };
 
-    /// The heights of a column from a row on, copied where they end.
+    /// The heights of a column from a row on; copied and padded where they reach past either end of the column.
     const float* heights_from(int x, int row, float* copy) const {
         const bool exists = x < grid.columns;
         if (exists && row >= -grid_heights::around && row + room <= grid.rows + grid_heights::around)
@@ -14382,12 +14386,13 @@ class horizon_bounds {
         bounds_ = insonify::detail::uninitialized_array<float>(
             2 * static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(strips_),
             insonify::detail::memory_of(ex));
-        bulk_ranges(ex, static_cast<std::size_t>(strips_), horizon_kernel::most, [&](std::size_t from, std::size_t to) {
-            insonify::detail::dispatch(
-                horizon_kernel{grid_, heights_, first_strip_ + static_cast<int>(from), static_cast<int>(to - from),
-                               strips_, static_cast<float>(margin_), bounds_.data() + from},
-                level);
-        });
+        bulk_ranges(
+            ex, static_cast<std::size_t>(strips_), horizon_kernel::max_strips, [&](std::size_t from, std::size_t to) {
+                insonify::detail::dispatch(
+                    horizon_kernel{grid_, heights_, first_strip_ + static_cast<int>(from), static_cast<int>(to - from),
+                                   strips_, static_cast<float>(margin_), bounds_.data() + from},
+                    level);
+            });
     }
 
     /// Decides N points.
@@ -14414,15 +14419,15 @@ class horizon_bounds {
         gather<N>(dark, [&](int k) { return at(k, dark_below(0)); });
         gather<N>(lit, [&](int k) { return at(k, lit_above(0)); });
         const bits is_dark = exists & bits(u < dark - margin_), is_lit = exists & bits(u > lit + margin_);
-        answer = is_lit ? bits{} + static_cast<std::int64_t>(known::lit)
-                        : bits{} + static_cast<std::int64_t>(known::nothing);
-        answer = is_dark ? bits{} + static_cast<std::int64_t>(known::dark) : answer;
+        answer = is_lit ? bits{} + static_cast<std::int64_t>(decision::lit)
+                        : bits{} + static_cast<std::int64_t>(decision::undecided);
+        answer = is_dark ? bits{} + static_cast<std::int64_t>(decision::dark) : answer;
     }
-    /// The same of one point.
-    known at(const glm::dvec3& p) const {
+    /// The same for one point.
+    decision at(const glm::dvec3& p) const {
         std::int64_t answer;
         decide<1>(answer, {p.x, p.y, p.z});
-        return static_cast<known>(answer);
+        return static_cast<decision>(answer);
     }
 
     const lit_grid& grid() const { return grid_; }
@@ -14456,7 +14461,7 @@ class horizon_bounds {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/shadow/detail/light_planes.hpp ---------------------------------------------------
-// The planes over which a light's rays stand upright, and casters and points as seen there.
+// The planes onto which casters and points are projected along a light's rays.
 //
 // Parallel light has one plane, the datum in the light's sheared frame (light.hpp). Light from a point has six, the
 // sides of a cube around it, each seen in perspective. On a plane every ray is one point (u, v), triangles stay
@@ -14489,7 +14494,7 @@ class light_plane {
 
     /// (u, v, height) of a point; of a near light before the division, (u d, v d, d) with the depth d.
     glm::dvec3 operator()(const glm::dvec3& p) const { return direction(p - origin_); }
-    /// The same of a difference of points.
+    /// The same for a difference of points.
     glm::dvec3 direction(const glm::dvec3& d) const {
         return {numeric::dot(rows_[0], d), numeric::dot(rows_[1], d), numeric::dot(rows_[2], d)};
     }
@@ -14592,7 +14597,7 @@ class ray_feet {
 /// Decides all triangles of one grid, seen by one camera.
 class horizon_triangles {
   public:
-    /// @param m    the mesh, of which `horizon` is
+    /// @param m    the mesh that `horizon` was computed for
     /// @param eye  the camera, in the mesh's frame
     horizon_triangles(const mesh_view& m, const horizon_bounds& horizon, const glm::dvec3& travel,
                       const glm::dvec3& eye)
@@ -14607,7 +14612,8 @@ class horizon_triangles {
         const double sine = -travel.z / numeric::square_root(numeric::dot(travel, travel));
         constexpr double grazed = 0x1p-20;  // a triangle closer to the light's direction is left to points
         rise_ = horizon.margin() + grazed * steepest / sine;
-        // The first triangle of each cell leaves one corner out; of the two here, `lower` is opposite another.
+        // `lower` has its right angle at `apex` and leaves out the opposite corner. It is the first triangle of a cell
+        // if the mesh's first triangle leaves out that corner too.
         const std::ptrdiff_t corner = grid_.corner(0, 0);
         const std::ptrdiff_t apex = grid_.first + (grid_.is_rising ? grid_.along : 0) - corner;
         const glm::uvec3& t = m.triangles[0];
@@ -14617,7 +14623,7 @@ class horizon_triangles {
     }
 
     /// Writes the results of some columns of cells, by triangle.
-    void find(int first_column, int last_column, known* into, isa level) const {
+    void find(int first_column, int last_column, decision* into, isa level) const {
         for (int left = first_column; left < last_column; left += wide)
             for (int bottom = 0; bottom < grid_.rows - 1; bottom += tall) {
                 answers found;
@@ -14631,24 +14637,24 @@ class horizon_triangles {
     /// a rectangle of the plane z = 0.
     /// @param lower, upper  corners of the rectangle, in the grid's steps
     void forget(const glm::dvec2& lower, const glm::dvec2& upper, int first_column, int last_column,
-                known* into) const {
+                decision* into) const {
         // These columns and, in each, these rows hold all points of such rays within the relief.
         const double least = horizon_.heights().least, greatest = horizon_.heights().greatest;
         const double beside = 0x1p-8 + horizon_.margin();  // covers rounding
-        const auto held = [](double at, int first, int last) {
+        const auto clamped = [](double at, int first, int last) {
             return static_cast<int>((std::min)((std::max)(at, static_cast<double>(first)), static_cast<double>(last)));
         };
-        const int left = held(lower.x - grid_.drop * greatest - beside - 1, first_column, last_column),
-                  right = held(upper.x - grid_.drop * least + beside + 1, first_column, last_column);
+        const int left = clamped(lower.x - grid_.drop * greatest - beside - 1, first_column, last_column),
+                  right = clamped(upper.x - grid_.drop * least + beside + 1, first_column, last_column);
         for (int x = left; x < right; ++x) {
-            const int bottom = held(lower.y - grid_.slope * (upper.x - x) - beside - 2, 0, grid_.rows - 1),
-                      top = held(upper.y - grid_.slope * (lower.x - x - 1) + beside + 2, 0, grid_.rows - 1);
+            const int bottom = clamped(lower.y - grid_.slope * (upper.x - x) - beside - 2, 0, grid_.rows - 1),
+                      top = clamped(upper.y - grid_.slope * (lower.x - x - 1) + beside + 2, 0, grid_.rows - 1);
             const float *const here = horizon_.heights().column(x), *const ahead = horizon_.heights().column(x + 1);
             for (int y = bottom; y < top; ++y) {
                 const auto low = static_cast<double>((std::min)({here[y], here[y + 1], ahead[y], ahead[y + 1]})),
                            high = static_cast<double>((std::max)({here[y], here[y + 1], ahead[y], ahead[y + 1]}));
                 if (high < lower.x - beside || low > upper.x + beside) continue;
-                into[grid_.first_triangle(x, y)] = into[grid_.first_triangle(x, y) + 1] = known::nothing;
+                into[grid_.first_triangle(x, y)] = into[grid_.first_triangle(x, y) + 1] = decision::undecided;
             }
         }
     }
@@ -14664,13 +14670,13 @@ class horizon_triangles {
     };
 
     /// The results of a block in the order of the mesh.
-    void write(const answers& found, int left, int bottom, int right, int top, known* into) const {
+    void write(const answers& found, int left, int bottom, int right, int top, decision* into) const {
         for (int y = bottom; y < top; ++y)
             for (int x = left; x < right; ++x) {
                 const std::int32_t both = found.of[x - left][y - bottom];
-                known* const cell = into + grid_.first_triangle(x, y);
-                cell[0] = static_cast<known>(both & 0xFF);
-                cell[1] = static_cast<known>(both >> 8);
+                decision* const cell = into + grid_.first_triangle(x, y);
+                cell[0] = static_cast<decision>(both & 0xFF);
+                cell[1] = static_cast<decision>(both >> 8);
             }
     }
 
@@ -14760,9 +14766,9 @@ class horizon_triangles {
             const ints is_facing = ints(rise > enough), is_averted = ints(rise < 0.0f - enough);
             const ints is_dark = (is_above & is_averted) | ((is_above | is_facing) & ints(highest < dark_below));
             const ints is_lit = is_above & is_facing & ints(lowest > lit_above);
-            answer = is_lit ? ints{} + static_cast<std::int32_t>(known::lit)
-                            : ints{} + static_cast<std::int32_t>(known::nothing);
-            answer = is_dark ? ints{} + static_cast<std::int32_t>(known::dark) : answer;
+            answer = is_lit ? ints{} + static_cast<std::int32_t>(decision::lit)
+                            : ints{} + static_cast<std::int32_t>(decision::undecided);
+            answer = is_dark ? ints{} + static_cast<std::int32_t>(decision::dark) : answer;
         }
     };
 
@@ -14770,7 +14776,7 @@ class horizon_triangles {
     const lit_grid& grid_;
     glm::dvec2 eye_{0};  ///< in the grid's steps
     double eye_u_ = 0;
-    double rise_ = 0;  ///< of u along the light, a column, above which a triangle faces it
+    double rise_ = 0;  ///< slope of u along the light, per column, above which a triangle faces it
     bool lower_is_first_ = true;
 };
 
@@ -14878,12 +14884,12 @@ class horizon_walk {
     /// Whether the surface blocks the ray of a point on it, where it faces the light.
     /// @param decide  decide(triangle): test of a triangle in doubles; false for the triangle of the point
     template <class Decide>
-    bool leads_from_surface(const Decide& decide) const {
+    bool is_blocked_from_surface(const Decide& decide) const {
         return walk(true, decide);
     }
     /// The same for any point.
     template <class Decide>
-    bool leads_from_anywhere(const Decide& decide) const {
+    bool is_blocked_from_anywhere(const Decide& decide) const {
         return walk(lies_above(), decide);
     }
 
@@ -14897,7 +14903,7 @@ class horizon_walk {
     };
 
     double row_at(double column) const { return w_ + grid_.slope * column; }
-    int held_row(double y) const {
+    int clamped_row(double y) const {
         return static_cast<int>((std::min)((std::max)(y, 0.0), static_cast<double>(grid_.rows - 2)));
     }
 
@@ -14907,7 +14913,7 @@ class horizon_walk {
         if (!(x_ >= beside_ && x_ <= grid_.columns - 1 - beside_ && y >= beside_ && y <= grid_.rows - 1 - beside_))
             return false;
         for (const double x : {x_ - beside_, x_ + beside_})
-            for (int row = held_row(y - beside_); row <= held_row(y + beside_); ++row)
+            for (int row = clamped_row(y - beside_); row <= clamped_row(y + beside_); ++row)
                 if (!(highest(static_cast<int>(x), row, row) < u_ - horizon_.margin())) return false;
         return true;
     }
@@ -14932,20 +14938,20 @@ class horizon_walk {
             const double low = row_at(column), high = low + grid_.slope;
             if (high < -beside_ || column + 1 + grid_.drop * greatest < doubt) return false;
             if (!is_first && is_above) {
-                const known rest = known_before(column);
-                if (rest != known::nothing) return rest == known::dark;
+                const decision rest = decide_before(column);
+                if (rest != decision::undecided) return rest == decision::dark;
             }
             if (!is_first && column % block_heights::side == block_heights::side - 1) {
                 const int before = column - (block_heights::side - 1);
                 const float highest_before = blocks_.highest(
-                    before / block_heights::side, held_row(row_at(before) - beside_), held_row(high + beside_));
+                    before / block_heights::side, clamped_row(row_at(before) - beside_), clamped_row(high + beside_));
                 if (static_cast<double>(highest_before) < doubt) {
                     column = before;
                     continue;
                 }
             }
             if (low > grid_.rows - 1 + beside_) continue;
-            const int first_row = held_row(low - beside_), last_row = held_row(high + beside_);
+            const int first_row = clamped_row(low - beside_), last_row = clamped_row(high + beside_);
             if (highest(column, first_row, last_row) < doubt) continue;
             const double limit = is_first && is_above ? x_ - column : 2;
             const crossing crossed = cross(column, limit);
@@ -14962,18 +14968,18 @@ class horizon_walk {
     }
 
     /// Decides by the bounds of a column, once the ray has been followed down to it.
-    known known_before(int column) const {
+    decision decide_before(int column) const {
         const int strip = static_cast<int>(w_ - horizon_.first_strip());
-        if (!horizon_.has_strip(strip)) return known::nothing;
+        if (!horizon_.has_strip(strip)) return decision::undecided;
         const horizon_bound b = horizon_.bound(column, strip);
-        if (u_ < static_cast<double>(b.dark_below) - horizon_.margin()) return known::dark;
-        return u_ > static_cast<double>(b.lit_above) + horizon_.margin() ? known::lit : known::nothing;
+        if (u_ < static_cast<double>(b.dark_below) - horizon_.margin()) return decision::dark;
+        return u_ > static_cast<double>(b.lit_above) + horizon_.margin() ? decision::lit : decision::undecided;
     }
 
     /// @param limit  position of the point, in columns from this one
     crossing cross(int column, double limit) const {
         const double slope = grid_.slope, low = row_at(column), high = low + slope;
-        const int row = held_row(low);
+        const int row = clamped_row(low);
         const float *const here = horizon_.heights().column(column) + row, *const ahead =
                                                                                horizon_.heights().column(column + 1) +
                                                                                row;
@@ -15019,7 +15025,7 @@ class horizon_walk {
     const block_heights& blocks_;
     const lit_grid& grid_;
     double x_, w_, u_;
-    double beside_;  ///< columns or rows by which a vertex may lie beside its place on the lattice, and a little more
+    double beside_;  ///< bound of a vertex's distance from its lattice point, in columns or rows, with a margin
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
@@ -15048,10 +15054,9 @@ class grid_caster {
           bounds_(mesh_, c.box, *c.grid, travel_, level, ex),
           blocks_(bounds_.grid(), bounds_.heights(), level, ex) {}
 
-    /// Decides some of its own points that face the light, in the frame of the light, as far as the bounds of its
-    /// horizon do.
-    /// @param into  of the first
-    void decide_own(const points& at, std::size_t first, std::size_t last, known* into, isa level) const {
+    /// Decides points [first, last), which lie on this caster and face the light, where the horizon's bounds suffice.
+    /// @param into  results, from that of point `first` on
+    void decide_own(const points& at, std::size_t first, std::size_t last, decision* into, isa level) const {
         insonify::detail::dispatch(kernel{*this, at, first, last, into}, level);
     }
     /// Whether it blocks the light of one of its own points that faces the light.
@@ -15060,14 +15065,14 @@ class grid_caster {
     template <class Decide>
     bool blocks_own(const glm::dvec3& p, const Decide& decide) const {
         const glm::dvec3 at = transform_point(to_mesh_, p);
-        const known answer = bounds_.at(at);
-        if (answer != known::nothing) return answer == known::dark;
-        return horizon_walk(bounds_, blocks_, at).leads_from_surface(decide);
+        const decision answer = bounds_.at(at);
+        if (answer != decision::undecided) return answer == decision::dark;
+        return horizon_walk(bounds_, blocks_, at).is_blocked_from_surface(decide);
     }
-    /// The same of any point.
+    /// The same for any point.
     template <class Decide>
     bool blocks(const glm::dvec3& p, const Decide& decide) const {
-        return horizon_walk(bounds_, blocks_, transform_point(to_mesh_, p)).leads_from_anywhere(decide);
+        return horizon_walk(bounds_, blocks_, transform_point(to_mesh_, p)).is_blocked_from_anywhere(decide);
     }
 
     /// See horizon_triangles.
@@ -15082,7 +15087,7 @@ class grid_caster {
         const grid_caster& caster;
         const points& at;
         std::size_t first, last;
-        known* into;
+        decision* into;
 
         template <int Width>
         INSONIFY_INLINE void run() const {
@@ -15102,7 +15107,7 @@ class grid_caster {
             lanes<std::int64_t, N> answers;
             caster.bounds_.decide<N>(answers, p);
             for (int k = 0; k < N; ++k)
-                into[i - first + static_cast<std::size_t>(k)] = static_cast<known>(lane(answers, k));
+                into[i - first + static_cast<std::size_t>(k)] = static_cast<decision>(lane(answers, k));
         }
     };
 
@@ -15120,7 +15125,7 @@ class grid_caster {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/shadow/detail/occluders.hpp ------------------------------------------------------
-// Casters as one plane of a light sees them: vertices in (u, v, height), and for each tile of the plane the triangles
+// Casters projected onto one plane of a light: vertices in (u, v, height), and for each tile of the plane the triangles
 // that touch it.
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -15268,7 +15273,7 @@ struct tile_assembly_kernel {
         unroll<2>([&](int axis) INSONIFY_INLINE_LAMBDA {
             floats low, high;
             t.range(low, high, axis);
-            // A margin of a tile covers rounding. NaN goes into all tiles.
+            // The margin covers rounding. Triangles with a NaN bound go into all tiles.
             const auto scale = static_cast<float>(1 / tile[axis]);
             const auto last_cell = static_cast<float>(axis == 0 ? tiles.columns - 1 : tiles.rows - 1);
             const floats margin =
@@ -15332,7 +15337,7 @@ class plane_caster {
     }
 
     std::span<const insonify::detail::triangle_run> bin(std::size_t tile) const { return bins_[tile]; }
-    /// A triangle that may come soon.
+    /// Prefetches the corners of a triangle that may be tested soon.
     INSONIFY_INLINE void prefetch(std::uint32_t triangle) const {
         if (triangle >= triangles_.size()) return;
         for (int i = 0; i < 3; ++i) insonify::detail::prefetch(&corner(triangle, i));
@@ -15360,7 +15365,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
-/// The place of a point in several batches.
+/// Batch of a point and its index in the batch, packed into 32 bits.
 class batch_index {
   public:
     batch_index() = default;
@@ -15373,14 +15378,14 @@ class batch_index {
     std::uint32_t value_;
 };
 
-/// A point on the plane, from the lower corner of the tiles, on its way into a tile.
+/// A point on the plane, relative to the lower corner of the tiles, before it is sorted into a cell.
 struct receiver {
     float u, v, height;
     batch_index place;
     std::uint32_t mesh, triangle;  ///< that it lies on
 };
 
-/// The lowest and the highest of some numbers of meshes.
+/// Range of mesh indices.
 struct mesh_range {
     std::uint32_t first = invalid_id, last = 0;
 
@@ -15461,7 +15466,7 @@ class receiver_cells {
     bool are_on_lit_side(std::uint32_t number) const { return averted_.empty() && lit_.is_only(number); }
     /// Whether some may lie where a caster faces away from the light.
     bool may_be_on_averted_side(std::uint32_t number) const { return averted_.contains(number); }
-    /// Receivers that are tested for the first casters alone take no more from now on.
+    /// Closes the open receivers that are tested against casters below this index only (points::casters).
     void close(std::uint32_t casters) {
         if (!is_limited_) return;
         for (std::size_t i = 0; i < size(); ++i)
@@ -15481,12 +15486,12 @@ class receiver_cells {
 
   private:
     static constexpr int widest = 128;          // rows
-    static constexpr std::size_t per_cell = 2;  ///< receivers, or more; fewer take longer to sort
+    static constexpr std::size_t per_cell = 2;  ///< largest mean number of receivers in two cells, up to widest rows
     static constexpr std::size_t padding = 16;
 
-    int column(float at) const { return hold((at - lower_.x) * scale_.x, columns_); }
-    int row(float at) const { return hold((at - lower_.y) * scale_.y, rows_); }
-    static int hold(float at, int count) {
+    int column(float at) const { return clamped((at - lower_.x) * scale_.x, columns_); }
+    int row(float at) const { return clamped((at - lower_.y) * scale_.y, rows_); }
+    static int clamped(float at, int count) {
         return static_cast<int>((std::min)((std::max)(0.0f, at), static_cast<float>(count - 1)));
     }
 
@@ -15523,8 +15528,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
-/// Marks the receivers of a tile that a caster blocks and that no caster before it does.
-/// @param Decide  decide(triangle, i): whether the triangle blocks receiver i, in doubles
+/// Marks the receivers of a tile that a caster blocks and no earlier caster has blocked.
+/// @tparam Decide  decide(triangle, i): whether the triangle blocks receiver i, in doubles
 template <class Decide>
 struct occlusion_kernel {
     const plane_caster& caster;
@@ -15532,7 +15537,7 @@ struct occlusion_kernel {
     std::uint32_t number;  ///< of the caster
     skip may_skip;
     bool is_turned;  ///< triangles that face the light are clockwise
-    float error;     ///< of coordinates on the plane, beside what rounding to float adds
+    float error;     ///< of coordinates on the plane, before they are rounded to float
     receiver_cells& receivers;
     const Decide& decide;
 
@@ -15689,11 +15694,11 @@ struct occlusion_kernel {
                 skipped |= ints(lit_mesh == static_cast<std::int32_t>(number));
                 if (skips == skip::facing) skipped |= ~is_own;
             }
-            const ints asked = open & ~skipped;
+            const ints tested = open & ~skipped;
             const ints certain =
-                asked & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) & ints(above < 0.0f - doubt);
+                tested & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) & ints(above < 0.0f - doubt);
             store(casters + i, ints(certain ? ints{} + static_cast<std::int32_t>(number) : blocked));
-            for (unsigned left = movemask<N>(ints(asked & ~certain)); left != 0; left &= left - 1) {
+            for (unsigned left = movemask<N>(ints(tested & ~certain)); left != 0; left &= left - 1) {
                 const std::size_t at = i + static_cast<std::size_t>(std::countr_zero(left));
                 if (decide(id, at)) casters[at] = static_cast<std::int32_t>(number);
             }
@@ -15764,8 +15769,8 @@ struct tiled_plane {
     static int clamped(double at, int count) { return static_cast<int>((std::min)((std::max)(0.0, at), count - 1.0)); }
 };
 
-/// All planes of one light, with their tiles counted together: one across parallel light, or the sides of a cube around
-/// a near one, of which those that no point lies over have no casters and no tiles.
+/// All planes of one light, with their tiles numbered consecutively: one plane for parallel light, or the six sides of
+/// a cube around a point light. Sides that no point lies over have no casters and no tiles.
 class tiled_planes {
   public:
     explicit tiled_planes(const any_light& light) {
@@ -15829,7 +15834,7 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 
 class points_by_tile {
   public:
-    /// Sorts points, and sets the results of all to lit by `into`: those without a caster over their tile stay so.
+    /// Sorts points by tile and sets all results in `into` to lit, which is final where no caster touches the tile.
     /// @param planes  not empty; outlives this
     template <executor E>
     points_by_tile(const tiled_planes& planes, std::span<const points> at, std::span<const results> into, E& ex)
@@ -15943,7 +15948,8 @@ inline namespace INSONIFY_FLAGS {
 class exact_occlusion {
   public:
     /// See casting_policy.
-    /// @throws invalid_input for an index without a position, or a light as light_frame refuses it
+    /// @throws invalid_input for an index without a position, a directional light out of range (see light_frame), or a
+    ///         point light that is not finite
     template <executor E>
     exact_occlusion(std::span<const caster> casters, const any_light& light, const point_bounds& where, E& ex)
         : casters_(casters.begin(), casters.end()),
@@ -15954,7 +15960,7 @@ class exact_occlusion {
         std::size_t triangles = 0;
         for (const caster& c : casters_) triangles += c.mesh.triangles.size();
         if (triangles == 0 || where.box.empty()) return;
-        int side = 16;  // small tiles, so that a small caster leaves others' tiles alone
+        int side = 16;  // at least 16 x 16 tiles, so that a small caster shares few tiles with others
         while (side < 64 && static_cast<std::size_t>(side * side) * 1024 < triangles) side *= 2;
         if (const auto* parallel = std::get_if<directional_light>(&light))
             add_parallel_plane(light_frame(*parallel), where.box, side, ex);
@@ -15977,13 +15983,14 @@ class exact_occlusion {
     /// See triangle_occlusion.
     /// @param eye  position of the camera
     template <executor E>
-    insonify::detail::uninitialized_array<known> known_triangles(std::uint32_t caster, const glm::dvec3& eye,
-                                                                 E& ex) const {
+    insonify::detail::uninitialized_array<decision> decide_triangles(std::uint32_t caster, const glm::dvec3& eye,
+                                                                     E& ex) const {
         if (caster >= grids_.size() || !grids_[caster]) return {};
         const shadow::caster& c = casters_[caster];
         const detail::lit_grid& grid = grids_[caster]->grid();
         const detail::horizon_triangles triangles = grids_[caster]->triangles(eye);
-        insonify::detail::uninitialized_array<known> answers(c.mesh.triangles.size(), insonify::detail::memory_of(ex));
+        insonify::detail::uninitialized_array<decision> answers(c.mesh.triangles.size(),
+                                                                insonify::detail::memory_of(ex));
         // Triangles that other casters may shade are left to the test of points.
         std::vector<std::pair<glm::dvec2, glm::dvec2>> shared;
         const detail::tiled_plane& plane = planes_.front();
@@ -16043,14 +16050,14 @@ class exact_occlusion {
         return reach;
     }
     /// Whether a caster is a grid that needs no list of triangles under parallel light.
-    static bool is_swept(const caster& c) { return c.grid != nullptr && c.may_skip == skip::facing_its_own; }
+    static bool has_horizon(const caster& c) { return c.grid != nullptr && c.may_skip == skip::facing_its_own; }
     static constexpr std::size_t screened_together = 256;
     /// Screens points of one mesh, of parallel light.
     void screen(const points& at, std::size_t first, std::size_t last, const results& into) const {
         const std::uint32_t own = at.mesh[first];
         const bool is_grid = own < grids_.size() && grids_[own];
-        known answers[screened_together];
-        std::fill_n(answers, last - first, known::nothing);
+        decision answers[screened_together];
+        std::fill_n(answers, last - first, decision::undecided);
         if (is_grid && at.face_light) grids_[own]->decide_own(at, first, last, answers, level_);
         const detail::tiled_plane& state = planes_.front();
         for (std::size_t i = first; i < last; ++i) {
@@ -16059,8 +16066,9 @@ class exact_occlusion {
             if (occupant == no_caster || (occupant != several_casters && occupant >= at.casters)) {
                 into.lit[i] = 1;
             } else if (occupant == own && is_grid) {
-                const known answer = answers[i - first];
-                const bool is_dark = answer == known::nothing ? is_blocked_by_grid(own, at, i) : answer == known::dark;
+                const decision answer = answers[i - first];
+                const bool is_dark =
+                    answer == decision::undecided ? is_blocked_by_grid(own, at, i) : answer == decision::dark;
                 into.lit[i] = is_dark ? 0.0f : 1.0f;
                 into.caster[i] = is_dark ? own : invalid_id;
             }
@@ -16085,7 +16093,7 @@ class exact_occlusion {
     template <executor E>
     void add_parallel_plane(const light_frame& frame, const bounding_box& bounds, int side, E& ex) {
         for (std::size_t i = 0; i < casters_.size(); ++i)
-            if (is_swept(casters_[i])) grids_[i].emplace(casters_[i], frame, level_, ex);
+            if (has_horizon(casters_[i])) grids_[i].emplace(casters_[i], frame, level_, ex);
         const detail::light_plane plane(frame);
         const auto [lower, upper] = detail::extent_on(plane, [&](int i) { return bounds.corner(i); });
         add_plane(plane, {lower, upper - lower, side, side}, 0x1p-44 * reach_of(bounds) * (1 + frame.cot_elevation()),
@@ -16971,15 +16979,15 @@ struct surface_vertex_shader {
 struct surface {
     mesh_view mesh;
     affine to_rig;
-    std::uint32_t first_id = 0;            ///< of its triangles in the visibility buffer
-    std::uint32_t caster = 0;              ///< index into the casters
-    std::uint16_t instance = 0;            ///< as in labels::instance
-    std::uint8_t seabed = 0;               ///< as in labels::seabed, if there are no types
-    material whole;                        ///< if there are no types
-    const seabed::type* types = nullptr;   ///< by vertex, of a bottom of several types
-    const material* materials = nullptr;   ///< by type
-    std::uint16_t self_shadow_label = 0;   ///< label in labels::shadow where the surface shades itself
-    const shadow::known* known = nullptr;  ///< lit, dark or undecided, by triangle; null if none is decided
+    std::uint32_t first_id = 0;               ///< of its triangles in the visibility buffer
+    std::uint32_t caster = 0;                 ///< index into the casters
+    std::uint16_t instance = 0;               ///< as in labels::instance
+    std::uint8_t seabed = 0;                  ///< as in labels::seabed, if there are no types
+    material whole;                           ///< if there are no types
+    const seabed::type* types = nullptr;      ///< by vertex, of a bottom of several types
+    const material* materials = nullptr;      ///< by type
+    std::uint16_t self_shadow_label = 0;      ///< label in labels::shadow where the surface shades itself
+    const shadow::decision* known = nullptr;  ///< lit, dark or undecided, by triangle; null if none is decided
 };
 
 /// The images that shading writes; null pointers are optional.
@@ -17079,10 +17087,10 @@ class surface_shader {
         if (object_.known != nullptr) {
             ints known;
             gather<N>(known, [&](int k) { return static_cast<std::int32_t>(object_.known[f.triangles[k]]); });
-            const ints is_lit = ints(known == static_cast<std::int32_t>(shadow::known::lit));
-            is_dark = ints(known == static_cast<std::int32_t>(shadow::known::dark));
+            const ints is_lit = ints(known == static_cast<std::int32_t>(shadow::decision::lit));
+            is_dark = ints(known == static_cast<std::int32_t>(shadow::decision::dark));
             value = is_lit ? all : value;
-            undecided = undecided & ints(known == static_cast<std::int32_t>(shadow::known::nothing));
+            undecided = undecided & ints(known == static_cast<std::int32_t>(shadow::decision::undecided));
         }
         f.store(into_.picture, value);
         if (into_.shadow != nullptr) {
@@ -17966,13 +17974,13 @@ class overhead_painter {
 
     /// Decides whole triangles before they are drawn, lit or dark. The surfaces point to the results.
     template <class Occlusion, executor E>
-    std::vector<uninitialized_array<shadow::known>> settle_triangles(const Occlusion& occlusion, E& ex) {
-        std::vector<uninitialized_array<shadow::known>> known;
+    std::vector<uninitialized_array<shadow::decision>> settle_triangles(const Occlusion& occlusion, E& ex) {
+        std::vector<uninitialized_array<shadow::decision>> known;
         if constexpr (shadow::triangle_occlusion<Occlusion>)
             for (surface& s : surfaces_) {
                 // A mesh much finer than the picture has more triangles than points to test.
                 if (s.mesh.triangles.size() > 2 * out_.image.size()) continue;
-                known.push_back(occlusion.known_triangles(s.caster, view_.eye(), ex));
+                known.push_back(occlusion.decide_triangles(s.caster, view_.eye(), ex));
                 if (!known.back().empty()) s.known = known.back().data();
             }
         return known;
@@ -18156,6 +18164,7 @@ namespace accuracy {
 
 inline namespace INSONIFY_FLAGS {
 
+/// Compares a mask with the true one, pixel by pixel.
 /// @throws invalid_input if the sizes differ
 inline mask_difference compare_masks(image_view<const std::uint8_t> result, image_view<const std::uint8_t> truth) {
     detail::require_same_size(result, truth);
@@ -18177,7 +18186,7 @@ inline mask_difference compare_masks(image_view<const std::uint8_t> result, imag
     return out;
 }
 
-/// Of images with linear pixels, or of bytes in steps of one.
+/// Compares an image with the true one, pixel by pixel. Differences are in the unit of the pixels.
 /// @throws invalid_input if the sizes differ
 inline pixel_difference compare_images(image_view<const float> result, image_view<const float> truth) {
     return detail::compare_pixels(result, truth);
@@ -18219,10 +18228,10 @@ inline namespace INSONIFY_FLAGS {
 
 /// The small pictures that `settings_for` draws.
 struct probe {
-    int chips = 4;       ///< their number, distributed over the large picture
-    int pixels = 128;    ///< along a side
-    double finest = 4;   ///< cells per pixel of the ground truth
-    double spare = 0.7;  ///< fraction of the budget that they may use; the rest is for other parts of the seabed
+    int chips = 4;              ///< their number, distributed over the large picture
+    int pixels = 128;           ///< along a side
+    double finest = 4;          ///< cells per pixel of the ground truth
+    double usable_share = 0.7;  ///< fraction of the budget that they may use; the rest is for other parts of the seabed
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -18431,10 +18440,10 @@ struct settings {
     Shadow shadow{};  ///< with its texels per pixel, if it is a map
     double cell = 0;  ///< as in render_options
     int subpixel_bits = render_options<Shadow>{}.subpixel_bits;
-    double side_error = 1;      ///< tolerance: pixels by which facets of a curved target may displace its outline
-    double shadow_error = 0.5;  ///< tolerance: pixels by which they may displace the edge of its shadow
-    errors expected{};          ///< as measured by settings_for
-    overhead rig{};             ///< that the settings are for
+    double silhouette_error = 1;     ///< tolerance: pixels by which facets of a curved target may displace its outline
+    double shadow_edge_error = 0.5;  ///< tolerance: pixels by which they may displace the edge of its shadow
+    errors expected{};               ///< as measured by settings_for
+    overhead rig{};                  ///< that the settings are for
 
     /// The settings as options of `render`; `settings.options<no_labels>()` without labels.
     template <class Labels = labels, backscatter_law Law = lambert>
@@ -18442,8 +18451,8 @@ struct settings {
         return {.shadow = shadow, .cell = cell, .subpixel_bits = subpixel_bits};
     }
 
-    /// Tolerance for the distance between the facets of a target and its surface, metres, from side_error and
-    /// shadow_error.
+    /// Tolerance for the distance between the facets of a target and its surface, metres, from silhouette_error and
+    /// shadow_edge_error.
     ///
     /// A distance d across a camera ray that leans by psi from the vertical moves the image by d / cos psi on a plane
     /// at that height (Thatcher Ulrich. Rendering Massive Terrains using Chunked Level of Detail Control. SIGGRAPH
@@ -18457,8 +18466,8 @@ struct settings {
         const double below = (std::max)(altitude - at.z - size, 0.05 * altitude);
         const double aside = numeric::square_root(at.x * at.x + at.y * at.y) + size;
         const double lean = numeric::square_root(1 + aside * aside / (below * below));
-        const double seen = side_error * view.ground_sampling() * below / altitude / lean;
-        const double cast = shadow_error * view.ground_sampling() * view.light().to_light().z;
+        const double seen = silhouette_error * view.ground_sampling() * below / altitude / lean;
+        const double cast = shadow_edge_error * view.ground_sampling() * view.light().to_light().z;
         const bool has_shadow = !std::same_as<Shadow, insonify::shadow::none>;
         return (has_shadow ? (std::min)(seen, cast) : seen) / static_cast<double>(placement.scale);
     }
@@ -18502,27 +18511,29 @@ inline namespace INSONIFY_FLAGS {
 /// @param tolerated  each above 0
 /// @param bottom     the seabed; pictures of others of its kind have about the same errors
 /// @param rig        of the pictures
-/// @param ex         runs it
+/// @param how        the small pictures to measure
+/// @param ex         runs the measurement
 /// @throws invalid_input for a tolerated error that isn't above 0, a probe out of range, and as `render`
 template <shadow::policy Shadow = shadow::exact, executor_argument E = serial_executor>
 settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::any& bottom, const overhead& rig,
                               const probe& how = {}, E&& ex = {}) {
     using detail::require;
-    require(tolerated.shadow_edge > 0, "budget.shadow_edge", tolerated.shadow_edge, "pixels above 0");
-    require(tolerated.silhouette > 0, "budget.silhouette", tolerated.silhouette, "pixels above 0");
-    require(tolerated.height > 0, "budget.height", tolerated.height, "pixels above 0");
+    require(tolerated.shadow_edge > 0, "budget.shadow_edge", tolerated.shadow_edge, "above 0 pixels");
+    require(tolerated.silhouette > 0, "budget.silhouette", tolerated.silhouette, "above 0 pixels");
+    require(tolerated.height > 0, "budget.height", tolerated.height, "above 0 pixels");
     require(tolerated.intensity > 0, "budget.intensity", tolerated.intensity, "above 0");
     detail::require_range("probe.chips", how.chips, 1, 1024, "1 to 1024");
     detail::require_range("probe.pixels", how.pixels, 1, 2048, "1 to 2048");
     detail::require_range("probe.finest", how.finest, 1, 8, "1 to 8 cells per pixel");
-    require(how.spare > 0 && how.spare <= 1, "probe.spare", how.spare, "above 0 and at most 1");
+    require(how.usable_share > 0 && how.usable_share <= 1, "probe.usable_share", how.usable_share,
+            "above 0 and at most 1");
 
     const overhead_geometry view(rig);
     settings<Shadow> found{.rig = rig};
     // Snapping moves a vertex by at most half a sub-pixel along each axis.
     if (tolerated.silhouette * 0.05 < 1.0 / (1 << found.subpixel_bits)) found.subpixel_bits = 16;
-    found.side_error = tolerated.silhouette;
-    found.shadow_error = 0.5 * tolerated.shadow_edge;
+    found.silhouette_error = tolerated.silhouette;
+    found.shadow_edge_error = 0.5 * tolerated.shadow_edge;
     if (bottom.empty()) return found;
 
     const detail::seabed_probe probed(bottom, rig, how, ex);
@@ -18539,8 +18550,8 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         all.silhouette = tolerated.silhouette;
         return all;
     };
-    const budget usable{how.spare * tolerated.shadow_edge, tolerated.silhouette, how.spare * tolerated.height,
-                        how.spare * tolerated.intensity};
+    const budget usable{how.usable_share * tolerated.shadow_edge, tolerated.silhouette,
+                        how.usable_share * tolerated.height, how.usable_share * tolerated.intensity};
 
     // From the coarsest grid on, halving the cells each time, at first with more texels than can matter. If no grid is
     // within the budget, the one that exceeds it least is taken.
@@ -18574,22 +18585,30 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     return found;
 }
 
-/// A seabed vertex for every four pixels, facets within a pixel. docs/tradeoff.md has error and cost of named settings.
+/// A seabed vertex every four pixels along each axis, facets within a pixel. docs/tradeoff.md has the errors and costs
+/// of the named settings.
 /// @param rig  of the pictures
 inline settings<> fast(const overhead& rig) {
-    return {.cell = 4 * overhead_geometry(rig).ground_sampling(), .side_error = 1, .shadow_error = 1, .rig = rig};
+    return {.cell = 4 * overhead_geometry(rig).ground_sampling(),
+            .silhouette_error = 1,
+            .shadow_edge_error = 1,
+            .rig = rig};
 }
 /// A seabed vertex for every two pixels, facets within a quarter of a pixel.
 inline settings<> balanced(const overhead& rig) {
-    return {.cell = 2 * overhead_geometry(rig).ground_sampling(), .side_error = 0.25, .shadow_error = 0.25, .rig = rig};
+    return {.cell = 2 * overhead_geometry(rig).ground_sampling(),
+            .silhouette_error = 0.25,
+            .shadow_edge_error = 0.25,
+            .rig = rig};
 }
-/// Four seabed vertices for each pixel, facets within 1/50 and vertices rounded to 1/65536 of a pixel.
+/// Two seabed vertices per pixel along each axis, facets within 1/50 and vertices rounded to 1/65536 of a pixel. Grids
+/// are limited to 32768 cells a side, which makes them coarser for pictures of more than 16384 pixels.
 inline settings<> exact(const overhead& rig) {
     const double finest = (std::max)(0.5, (std::max)(rig.size.x, rig.size.y) / 32768.0);
     return {.cell = finest * overhead_geometry(rig).ground_sampling(),
             .subpixel_bits = 16,
-            .side_error = 0.02,
-            .shadow_error = 0.02,
+            .silhouette_error = 0.02,
+            .shadow_edge_error = 0.02,
             .rig = rig};
 }
 
@@ -18602,10 +18621,10 @@ inline settings<> exact(const overhead& rig) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/filter/poisson.hpp ---------------------------------------------------------------
-// Shot noise: each pixel becomes a Poisson count whose mean it was.
+// Shot noise: replaces each pixel by a Poisson count with the pixel as its mean.
 //
-// Counts of means below 10 are found by inversion, larger ones by transformed rejection with squeeze, in 1.1 to 1.2
-// trials. Both follow the Poisson law to the 2^-32 of their uniform numbers.
+// Means below 10 are sampled by inversion, larger ones by transformed rejection with squeeze, in 1.1 to 1.2 trials.
+// Both follow the Poisson distribution to within the 2^-32 resolution of their uniform numbers.
 //
 // Based on: Wolfgang Hormann. The Transformed Rejection Method for Generating Poisson Random Variables. Insurance:
 // Mathematics and Economics 12, 1993 (algorithm PTRS).
@@ -21279,7 +21298,7 @@ inline mesh to_mesh(const wedge& w) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/io/manifest.hpp ------------------------------------------------------------------
-// CSV tables by RFC 4180, such as the contents of a data set's images, written atomically.
+// CSV tables as in RFC 4180, such as the manifest of a data set, written atomically.
 //
 // Based on: Yakov Shafranovich. Common Format and MIME Type for Comma-Separated Values (CSV) Files. RFC 4180, 2005.
 
@@ -21314,7 +21333,7 @@ class csv_table {
     /// @throws invalid_input if there isn't one cell for each column
     template <csv_cell... Cells>
     void add(const Cells&... cells) {
-        detail::require(sizeof...(cells) == columns_, "cells in a row", sizeof...(cells),
+        detail::require(sizeof...(cells) == columns_, "number of cells in a row", sizeof...(cells),
                         detail::to_text(columns_) + ", one for each column");
         std::string line;  // whole before it is added, should memory run out
         std::size_t index = 0;
@@ -22695,7 +22714,7 @@ struct map_extent {
     double ceiling = -(std::numeric_limits<double>::max)();
 
     bool empty() const { return highest.x < lowest.x || highest.y < lowest.y; }
-    /// How far from the frame's origin it goes along v and z, which a low light doesn't stretch.
+    /// Largest distance from the frame's origin along v and z. Not along u, which a low light stretches.
     double reach() const { return (std::max)({-lowest.y, highest.y, -floor, ceiling}); }
 
     void include(const glm::dvec3& uvz) {
@@ -22705,7 +22724,7 @@ struct map_extent {
         ceiling = (std::max)(ceiling, uvz.z);
     }
 
-    /// Only rays that both meet matter; all casters' heights do.
+    /// The part over the rays of the receivers, with the heights of all casters.
     map_extent clipped_to(const map_extent& receivers) const {
         map_extent both = *this;
         both.lowest = {(std::max)(lowest.x, receivers.lowest.x), (std::max)(lowest.y, receivers.lowest.y)};
@@ -22741,7 +22760,7 @@ map_extent extent_of(const mesh_view& m, const affine& to_world, const light_fra
     return whole;
 }
 
-/// The vertex callable of maps: from a mesh's own coordinates to clip space, where w is one.
+/// Vertex shader of height maps: from a mesh's coordinates to clip space, with w = 1.
 struct map_placement {
     glm::mat3 axes;
     glm::vec3 start;
@@ -22766,8 +22785,8 @@ struct map_grid {
 
     map_grid() = default;
 
-    /// @param texel_length  metres along v; grows if more than `largest` texels a side were needed
-    /// @param stretch       how much longer texels are along u
+    /// @param texel_length  metres along v; enlarged if more than `largest` texels a side would be needed
+    /// @param stretch       length of a texel along u over its length along v
     /// @throws invalid_input for a texel that isn't positive or a `largest` outside [1, 32768]
     map_grid(const map_extent& extent, double texel_length, int largest, double stretch = 1)
         : origin(extent.lowest), floor(extent.floor) {
@@ -22792,8 +22811,8 @@ struct map_grid {
 
     bool empty() const { return columns == 0; }
 
-    /// The vertex callable that puts a mesh on the grid. The whole way from mesh to clip space is one affine map; it is
-    /// made in double and small when narrowed. Row 0 is where v is smallest, so triangles appear mirrored.
+    /// Vertex shader that maps a mesh onto the grid. Mesh to clip space is one affine map, composed in double and
+    /// narrowed last, when its numbers are small. Row 0 is where v is smallest, so triangles appear mirrored.
     auto placing(const light_frame& frame, const affine& to_world) const {
         const glm::dvec2 scale{2 / (texel.x * columns), 2 / (texel.y * rows)};
         const auto to_clip = [&](const glm::dvec3& uvz) {
@@ -22825,15 +22844,17 @@ class height_map {
     height_map() : frame_(directional_light{}) {}
 
     /// @param frame    of the light
-    /// @param extent   which rays, and between which heights; casters outside are left out
+    /// @param extent   (u, v) of the rays, and range of heights; casters outside it are clipped
+    /// @param texel    metres between rays along u and v; grows if the map would have more than `largest` texels a side
     /// @throws invalid_input as map_grid does
     height_map(const light_frame& frame, const map_extent& extent, double texel, int largest = 8192)
         : frame_(frame),
           grid_(extent, texel, largest),
           heights_(grid_.columns, grid_.rows, empty_depth(keep_depth::larger)) {}
 
-    /// Lets a mesh cast; several may share a map.
+    /// Draws a mesh into the map as a caster; several meshes may share a map.
     /// @param to_world  from the mesh's frame to the one in which the light is described
+    /// @throws invalid_input for an index without a position
     template <executor_argument E = serial_executor>
     draw_stats cast(const mesh_view& m, const affine& to_world, E&& ex = {}) {
         if (heights_.empty()) return {};
@@ -22856,7 +22877,7 @@ class height_map {
     }
     /// A slope dz / du in stored heights per texel.
     float on_map(double slope) const { return static_cast<float>(slope * (grid_.texel.y / grid_.relief)); }
-    /// What a texel's ray meets first: a stored height, minus infinity for nothing.
+    /// Stored height of the first surface that a texel's ray meets; minus infinity if there is none.
     float operator()(int column, int row) const { return heights_(column, row); }
 
   private:
@@ -22936,7 +22957,7 @@ class map_receiver {
                  at_.y < static_cast<float>(map_.rows()) + reach);
     }
 
-    /// How many of the (2 radius + 1)^2 rays around the point get past the map to this surface. Expects !is_beyond.
+    /// Number of the (2 radius + 1)^2 rays around the point that no caster blocks. @pre !is_beyond(radius)
     int open_rays(int radius) const {
         const int column = static_cast<int>(at_.x + 64) - 64, row = static_cast<int>(at_.y + 64) - 64;  // rounds down
         int open = 0;
@@ -22983,9 +23004,9 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/shadow/map.hpp -------------------------------------------------------------------
 // Shadow maps: one height map for each caster, looked up at the nearest texel (`map`) or averaged over several (`pcf`).
 //
-// A target's map covers the target alone, so its texels stay fine in large pictures. An edge is off by half a texel at
-// most, see light.hpp; a point on a mesh gets a depth bias along the slope of its facet, see lookup.hpp. Light from
-// nearby is refused.
+// A target's map covers the target alone, so its texels stay fine in large pictures. A shadow edge is off by at most
+// half a texel. A point on a mesh gets a depth bias along the slope of its facet, see map_lookup.hpp. Point lights are
+// rejected.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -23014,7 +23035,7 @@ inline void validate(const map_layout& m) {
 class map_occlusion {
   public:
     /// See casting_policy.
-    /// @throws invalid_input for a layout out of its range, for light from nearby, and for an index without a position
+    /// @throws invalid_input for a layout out of range, a point_light, or an index without a position
     template <executor E>
     map_occlusion(const map_layout& layout, std::span<const caster> casters, const any_light& light,
                   const point_bounds& bounds, E& ex)
@@ -23081,7 +23102,7 @@ class map_occlusion {
 /// A map of the casters' heights along the light, looked up at the nearest texel: hard edges.
 struct map {
     float texels_per_pixel = 1.5f;  ///< of the points' spacing; a shadow edge is off by half a texel at most
-    int largest = 8192;             ///< texels a side; what would need more gets coarser texels
+    int largest = 8192;             ///< texels a side; texels are enlarged where a map would exceed it
 
     /// See casting_policy.
     /// @throws invalid_input as map_occlusion does
@@ -23092,7 +23113,7 @@ struct map {
     }
 };
 
-/// The same map, averaged over (2 radius + 1)^2 texels: edges are soft over as many.
+/// The same map, averaged over (2 radius + 1)^2 texels, which blurs shadow edges over 2 radius + 1 texels.
 struct pcf {
     float texels_per_pixel = 1.5f;
     int largest = 8192;
@@ -23114,9 +23135,9 @@ struct pcf {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/shadow/penumbra.hpp --------------------------------------------------------------
-// Soft shadows of a round light: exact shadows of several points of its disc, of which a point gets its share.
+// Soft shadows of a disc light: exact shadows from several sample points on the disc, averaged.
 //
-// Sample points fill the disc as a sunflower's seeds do, ring by ring, the first in the middle.
+// Sample points fill the disc in Vogel's sunflower spiral, the first at the centre.
 //
 // Based on: Helmut Vogel. A Better Way to Construct the Sunflower Head. Mathematical Biosciences 44, 1979.
 
@@ -23195,7 +23216,7 @@ class penumbra_occlusion {
     };
 
     /// A point of the light, or none below the horizon.
-    /// @param beside  its place on the disc, across and up, over the light's distance
+    /// @param beside  its offset from the disc's centre, across and up, divided by the light's distance
     static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& beside) {
         if (beside == glm::dvec2(0)) return light;
         const auto place = [&](const glm::dvec3& middle, const glm::dvec2& travel) {
@@ -23216,7 +23237,7 @@ class penumbra_occlusion {
         return directional_light{numeric::atan2(-d.y, -d.x), numeric::atan2(d.z, level)};
     }
 
-    /// Adds what one sample lights of the points whose facets face it on the side of the light's middle.
+    /// Adds the light of one sample to the points whose facets show it and the light's centre the same side.
     void add(std::size_t number, const points& at, const results& one, const results& into) const {
         const sample &middle = lights_.front(), &here = lights_[number];
         glm::dvec3 to_middle = middle.toward({}), to_here = here.toward({});
@@ -23244,11 +23265,12 @@ class penumbra_occlusion {
 
 }  // namespace INSONIFY_FLAGS
 
-/// Soft edges: exact shadows of several points of a round light. Each point costs as much as `exact`. The caster is
-/// that of the light's middle. The disc of light from nearby faces the origin of the frame in which it is described.
+/// Soft edges: exact shadows from several points of a disc light. Each point costs as much as `exact`. The caster is
+/// the one that blocks the light's centre. The disc of a point light faces the origin of the frame in which the light
+/// is described.
 struct penumbra {
-    float diameter = static_cast<float>(numeric::to_radians(0.5));  ///< of the light, in radians as the ground sees it
-    int samples = 16;                                               ///< points of it, the first in the middle
+    float diameter = static_cast<float>(numeric::to_radians(0.5));  ///< of the light as seen from the ground, radians
+    int samples = 16;                                               ///< points on the disc, the first at its centre
 
     /// Radius of the light over its distance.
     /// @throws invalid_input for a diameter out of range
@@ -26723,8 +26745,8 @@ INSONIFY_ARITHMETIC_END
 //     #define INSONIFY_COMPILED           // in all others, or -DINSONIFY_COMPILED; CMake: link insonify::compiled
 //     #include <insonify/insonify.hpp>
 //
-// The lists below say what is compiled once. Other shadow policies, laws and seabeds work too: include the header that
-// draws with them (sonar/overhead/render.hpp), and the unit compiles what the lists lack.
+// The lists below name what is compiled once. To use other shadow policies, laws and seabeds, include the header that
+// draws with them (sonar/overhead/render.hpp): a unit compiles for itself whatever the lists do not name.
 
 #if defined(INSONIFY_COMPILED)
 

@@ -1,5 +1,5 @@
 // -ffast-math lets compilers round as they like.
-// expect: promises the same bytes everywhere
+// expect: bit-identical on all platforms
 #if defined(INSONIFY_COMPILE_FAIL)
 #define __FAST_MATH__ 1
 #endif

@@ -38,10 +38,10 @@ struct settings {
     Shadow shadow{};  ///< with its texels per pixel, if it is a map
     double cell = 0;  ///< as in render_options
     int subpixel_bits = render_options<Shadow>{}.subpixel_bits;
-    double side_error = 1;      ///< tolerance: pixels by which facets of a curved target may displace its outline
-    double shadow_error = 0.5;  ///< tolerance: pixels by which they may displace the edge of its shadow
-    errors expected{};          ///< as measured by settings_for
-    overhead rig{};             ///< that the settings are for
+    double silhouette_error = 1;     ///< tolerance: pixels by which facets of a curved target may displace its outline
+    double shadow_edge_error = 0.5;  ///< tolerance: pixels by which they may displace the edge of its shadow
+    errors expected{};               ///< as measured by settings_for
+    overhead rig{};                  ///< that the settings are for
 
     /// The settings as options of `render`; `settings.options<no_labels>()` without labels.
     template <class Labels = labels, backscatter_law Law = lambert>
@@ -49,8 +49,8 @@ struct settings {
         return {.shadow = shadow, .cell = cell, .subpixel_bits = subpixel_bits};
     }
 
-    /// Tolerance for the distance between the facets of a target and its surface, metres, from side_error and
-    /// shadow_error.
+    /// Tolerance for the distance between the facets of a target and its surface, metres, from silhouette_error and
+    /// shadow_edge_error.
     ///
     /// A distance d across a camera ray that leans by psi from the vertical moves the image by d / cos psi on a plane
     /// at that height (Thatcher Ulrich. Rendering Massive Terrains using Chunked Level of Detail Control. SIGGRAPH
@@ -64,8 +64,8 @@ struct settings {
         const double below = (std::max)(altitude - at.z - size, 0.05 * altitude);
         const double aside = numeric::square_root(at.x * at.x + at.y * at.y) + size;
         const double lean = numeric::square_root(1 + aside * aside / (below * below));
-        const double seen = side_error * view.ground_sampling() * below / altitude / lean;
-        const double cast = shadow_error * view.ground_sampling() * view.light().to_light().z;
+        const double seen = silhouette_error * view.ground_sampling() * below / altitude / lean;
+        const double cast = shadow_edge_error * view.ground_sampling() * view.light().to_light().z;
         const bool has_shadow = !std::same_as<Shadow, insonify::shadow::none>;
         return (has_shadow ? (std::min)(seen, cast) : seen) / static_cast<double>(placement.scale);
     }
@@ -109,27 +109,29 @@ inline namespace INSONIFY_FLAGS {
 /// @param tolerated  each above 0
 /// @param bottom     the seabed; pictures of others of its kind have about the same errors
 /// @param rig        of the pictures
-/// @param ex         runs it
+/// @param how        the small pictures to measure
+/// @param ex         runs the measurement
 /// @throws invalid_input for a tolerated error that isn't above 0, a probe out of range, and as `render`
 template <shadow::policy Shadow = shadow::exact, executor_argument E = serial_executor>
 settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::any& bottom, const overhead& rig,
                               const probe& how = {}, E&& ex = {}) {
     using detail::require;
-    require(tolerated.shadow_edge > 0, "budget.shadow_edge", tolerated.shadow_edge, "pixels above 0");
-    require(tolerated.silhouette > 0, "budget.silhouette", tolerated.silhouette, "pixels above 0");
-    require(tolerated.height > 0, "budget.height", tolerated.height, "pixels above 0");
+    require(tolerated.shadow_edge > 0, "budget.shadow_edge", tolerated.shadow_edge, "above 0 pixels");
+    require(tolerated.silhouette > 0, "budget.silhouette", tolerated.silhouette, "above 0 pixels");
+    require(tolerated.height > 0, "budget.height", tolerated.height, "above 0 pixels");
     require(tolerated.intensity > 0, "budget.intensity", tolerated.intensity, "above 0");
     detail::require_range("probe.chips", how.chips, 1, 1024, "1 to 1024");
     detail::require_range("probe.pixels", how.pixels, 1, 2048, "1 to 2048");
     detail::require_range("probe.finest", how.finest, 1, 8, "1 to 8 cells per pixel");
-    require(how.spare > 0 && how.spare <= 1, "probe.spare", how.spare, "above 0 and at most 1");
+    require(how.usable_share > 0 && how.usable_share <= 1, "probe.usable_share", how.usable_share,
+            "above 0 and at most 1");
 
     const overhead_geometry view(rig);
     settings<Shadow> found{.rig = rig};
     // Snapping moves a vertex by at most half a sub-pixel along each axis.
     if (tolerated.silhouette * 0.05 < 1.0 / (1 << found.subpixel_bits)) found.subpixel_bits = 16;
-    found.side_error = tolerated.silhouette;
-    found.shadow_error = 0.5 * tolerated.shadow_edge;
+    found.silhouette_error = tolerated.silhouette;
+    found.shadow_edge_error = 0.5 * tolerated.shadow_edge;
     if (bottom.empty()) return found;
 
     const detail::seabed_probe probed(bottom, rig, how, ex);
@@ -146,8 +148,8 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         all.silhouette = tolerated.silhouette;
         return all;
     };
-    const budget usable{how.spare * tolerated.shadow_edge, tolerated.silhouette, how.spare * tolerated.height,
-                        how.spare * tolerated.intensity};
+    const budget usable{how.usable_share * tolerated.shadow_edge, tolerated.silhouette,
+                        how.usable_share * tolerated.height, how.usable_share * tolerated.intensity};
 
     // From the coarsest grid on, halving the cells each time, at first with more texels than can matter. If no grid is
     // within the budget, the one that exceeds it least is taken.
@@ -181,22 +183,30 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     return found;
 }
 
-/// A seabed vertex for every four pixels, facets within a pixel. docs/tradeoff.md has error and cost of named settings.
+/// A seabed vertex every four pixels along each axis, facets within a pixel. docs/tradeoff.md has the errors and costs
+/// of the named settings.
 /// @param rig  of the pictures
 inline settings<> fast(const overhead& rig) {
-    return {.cell = 4 * overhead_geometry(rig).ground_sampling(), .side_error = 1, .shadow_error = 1, .rig = rig};
+    return {.cell = 4 * overhead_geometry(rig).ground_sampling(),
+            .silhouette_error = 1,
+            .shadow_edge_error = 1,
+            .rig = rig};
 }
 /// A seabed vertex for every two pixels, facets within a quarter of a pixel.
 inline settings<> balanced(const overhead& rig) {
-    return {.cell = 2 * overhead_geometry(rig).ground_sampling(), .side_error = 0.25, .shadow_error = 0.25, .rig = rig};
+    return {.cell = 2 * overhead_geometry(rig).ground_sampling(),
+            .silhouette_error = 0.25,
+            .shadow_edge_error = 0.25,
+            .rig = rig};
 }
-/// Four seabed vertices for each pixel, facets within 1/50 and vertices rounded to 1/65536 of a pixel.
+/// Two seabed vertices per pixel along each axis, facets within 1/50 and vertices rounded to 1/65536 of a pixel. Grids
+/// are limited to 32768 cells a side, which makes them coarser for pictures of more than 16384 pixels.
 inline settings<> exact(const overhead& rig) {
     const double finest = (std::max)(0.5, (std::max)(rig.size.x, rig.size.y) / 32768.0);
     return {.cell = finest * overhead_geometry(rig).ground_sampling(),
             .subpixel_bits = 16,
-            .side_error = 0.02,
-            .shadow_error = 0.02,
+            .silhouette_error = 0.02,
+            .shadow_edge_error = 0.02,
             .rig = rig};
 }
 

@@ -97,6 +97,7 @@ namespace accuracy {
 
 inline namespace INSONIFY_FLAGS {
 
+/// Compares a mask with the true one, pixel by pixel.
 /// @throws invalid_input if the sizes differ
 inline mask_difference compare_masks(image_view<const std::uint8_t> result, image_view<const std::uint8_t> truth) {
     detail::require_same_size(result, truth);
@@ -118,7 +119,7 @@ inline mask_difference compare_masks(image_view<const std::uint8_t> result, imag
     return out;
 }
 
-/// Of images with linear pixels, or of bytes in steps of one.
+/// Compares an image with the true one, pixel by pixel. Differences are in the unit of the pixels.
 /// @throws invalid_input if the sizes differ
 inline pixel_difference compare_images(image_view<const float> result, image_view<const float> truth) {
     return detail::compare_pixels(result, truth);

@@ -27,10 +27,10 @@ inline namespace INSONIFY_FLAGS {
 
 /// The small pictures that `settings_for` draws.
 struct probe {
-    int chips = 4;       ///< their number, distributed over the large picture
-    int pixels = 128;    ///< along a side
-    double finest = 4;   ///< cells per pixel of the ground truth
-    double spare = 0.7;  ///< fraction of the budget that they may use; the rest is for other parts of the seabed
+    int chips = 4;              ///< their number, distributed over the large picture
+    int pixels = 128;           ///< along a side
+    double finest = 4;          ///< cells per pixel of the ground truth
+    double usable_share = 0.7;  ///< fraction of the budget that they may use; the rest is for other parts of the seabed
 };
 
 }  // namespace INSONIFY_FLAGS

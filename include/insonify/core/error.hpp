@@ -43,7 +43,7 @@ template <class Error>
 template <class T>
 concept arithmetic = std::is_arithmetic_v<T>;
 
-/// Shortest text that reads back as the same number, without the locale.
+/// Shortest text that reads back as the same number, whatever the locale.
 template <arithmetic Number>
 std::string to_text(Number value) {
     if constexpr (std::is_same_v<Number, bool>) {

@@ -30,7 +30,7 @@ class image {
 
     image() = default;
 
-    /// @param width, height  pixels, each in [0, 2^30], together at most 2^40
+    /// @param width, height  pixels, each in [0, 2^30]; width x height at most 2^40
     /// @throws invalid_input for a size outside that range
     INSONIFY_MEMBER image(int width, int height, T fill = T{})
         : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area(), fill) {}

@@ -59,10 +59,10 @@ class image_view {
     /// The part of the view that starts at (x, y); shares the pixels.
     /// @throws invalid_input if the part is not inside the view
     INSONIFY_TAGGED image_view part(int x, int y, int width, int height) const {
-        detail::require(x >= 0 && x <= width_, "x", x, "a column of the view");
-        detail::require(y >= 0 && y <= height_, "y", y, "a row of the view");
-        detail::require(width >= 0 && width <= width_ - x, "width", width, "a part inside the view");
-        detail::require(height >= 0 && height <= height_ - y, "height", height, "a part inside the view");
+        detail::require(x >= 0 && x <= width_, "x", x, "0 to the width of the view");
+        detail::require(y >= 0 && y <= height_, "y", y, "0 to the height of the view");
+        detail::require(width >= 0 && width <= width_ - x, "width", width, "0 to the view's width less x");
+        detail::require(height >= 0 && height <= height_ - y, "height", height, "0 to the view's height less y");
         return {data_ + y * stride_ + x, width, height, stride_};
     }
 

@@ -57,8 +57,8 @@ constexpr double to_radians(double degrees) {
 constexpr double to_degrees(double radians) {
     return radians * (180 / pi);
 }
-/// A float as a double, where users may have rounded it from one. g++ 12 vectorizes pairs of conversions and then drops
-/// the rounding (at -O2, a rig at 0.1f stood at 0.1); it can't see through this one.
+/// Converts a float to double behind an optimization barrier, for values that callers may have rounded from a double:
+/// g++ 12 at -O2 vectorizes pairs of such conversions and drops the rounding (a rig at 0.1f ended up at 0.1).
 inline double widened(float value) {
 #if defined(__GNUC__) && !defined(__clang__)
     __asm__("" : "+g"(value));

@@ -25,8 +25,8 @@ concept countable_pixel = std::same_as<T, float> || pixel_code<T>;
 
 inline namespace INSONIFY_FLAGS {
 
-/// The code nearest to `value`, 1 being the largest code; ties go up, values outside [0, 1] to the end they passed,
-/// NaN to 0.
+/// Rounds `value` to the nearest code, where 1 is the largest code. Ties round up, values outside [0, 1] are clamped,
+/// NaN gives 0.
 template <pixel_code Code>
 constexpr Code quantize(float value) {
     constexpr double largest = (std::numeric_limits<Code>::max)();

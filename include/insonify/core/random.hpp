@@ -19,7 +19,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Input of philox4x32 beside the key: pixel, cell or sample numbers.
+/// Input of philox4x32 besides the key: pixel, cell or sample numbers.
 using philox_counter = std::array<std::uint32_t, 4>;
 /// The key of a stream of random words, from `stream_key`.
 using philox_key = std::array<std::uint32_t, 2>;

@@ -43,9 +43,9 @@ struct to_unit {
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// [0, 1] -> 0 ... 255 or 65535, rounded to nearest; values outside are clamped, NaN becomes 0.
+/// [0, 1] -> 0 ... 255, rounded to nearest; values outside are clamped, NaN becomes 0.
 inline constexpr detail::to_code<std::uint8_t> to_uint8{};
-/// The same with 16 bits.
+/// [0, 1] -> 0 ... 65535, in the same way.
 inline constexpr detail::to_code<std::uint16_t> to_uint16{};
 
 /// 0 ... 255 or 65535 -> [0, 1]; `to_uint8` or `to_uint16` is its exact inverse.

@@ -45,14 +45,14 @@ struct rayleigh {
 struct gamma_speckle {
     parameter looks = 4;  ///< 0.01 to 1e6, not only whole numbers; 1 is Rayleigh
     echo of = echo::amplitude;
-    correlation_length correlation{};  ///< for whole looks, 1 to 64, that are the same for all pixels
+    correlation_length correlation{};  ///< if not 0, `looks` must be one whole number, 1 to 64, for all pixels
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;  ///< which image of a set
 
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for looks outside 0.01 to 1e6, or a correlation length outside 0 to 16; on application,
-    ///         for a map of another size than the image
+    /// @throws invalid_input for looks outside 0.01 to 1e6, a correlation length outside 0 to 16, or correlation with
+    ///         looks other than one whole number from 1 to 64; on application, for a map of another size than the image
     INSONIFY_TAGGED auto pass() const {
         detail::check_shape("gamma_speckle.looks", looks);
         detail::require_correlation("gamma_speckle.correlation", correlation);
@@ -61,21 +61,23 @@ struct gamma_speckle {
     }
 };
 
-/// The K-distribution: speckle whose mean intensity is itself gamma-distributed from pixel to pixel; for one look,
-/// variance / mean^2 of the intensity is 1 + 2 / shape. Rock has shapes of 0.5 to 2, gravel to 4, sand 8 to 20.
+/// The K-distribution: speckle whose mean intensity is itself gamma-distributed from pixel to pixel. For one look,
+/// variance / mean^2 of the intensity is 1 + 2 / shape. Typical shapes: rock 0.5 to 2, gravel 2 to 4, sand 8 to 20.
 struct k_speckle {
     parameter shape = 4;  ///< of the mean, 0.01 to 1e6
     float looks = 1;      ///< 0.01 to 1e6
     echo of = echo::amplitude;
-    /// For whole looks, 1 to 64. With a map of shapes, the length is that of the speckle, under a white texture.
+    /// If not 0, `looks` must be a whole number, 1 to 64. With a map of shapes, only the speckle is correlated; the
+    /// texture stays white.
     correlation_length correlation{};
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;  ///< which image of a set
 
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for a shape or looks outside 0.01 to 1e6, or a correlation length outside 0 to 16; on
-    ///         application, for a map of another size than the image
+    /// @throws invalid_input for a shape or looks outside 0.01 to 1e6, a correlation length outside 0 to 16, or
+    ///         correlation with looks other than a whole number from 1 to 64; on application, for a map of another size
+    ///         than the image
     INSONIFY_TAGGED auto pass() const {
         detail::check_shape("k_speckle.shape", shape);
         detail::check_shape("k_speckle.looks", looks);

@@ -1,7 +1,7 @@
 // Histograms with bins of equal width, and two filters of MATLAB's: histogram equalization and matching.
 //
 // NaN is not counted and stays NaN. By MATLAB's rule, a constant image becomes the level at which the cumulative share
-// of the wanted histogram reaches one half, or 1 if the image is at level 0 or the last level.
+// of the target histogram reaches one half, or its highest occupied level if the image is at level 0 or the last level.
 //
 // Based on: MathWorks. Image Processing Toolbox, imhist, histeq, imhistmatch (64 bins, 256 source levels, 65536 for
 // codes of 16 bits).
@@ -37,8 +37,8 @@ struct histogram {
 
     /// @throws invalid_input for another number of bins
     INSONIFY_TAGGED histogram& operator+=(const histogram& other) {
-        detail::require(other.counts.size() == counts.size(), "bins of the histogram to add", other.counts.size(),
-                        "those of the sum");
+        detail::require(other.counts.size() == counts.size(), "bin count of the added histogram", other.counts.size(),
+                        "that of the sum");
         for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
         return *this;
     }
@@ -102,7 +102,7 @@ class match_binned {
   public:
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for a reference without a number in it, or bins outside 2 to 65536
+    /// @throws invalid_input for a reference that is empty or all NaN, or bins outside 2 to 65536
     template <countable_pixel Pixel>
     INSONIFY_MEMBER explicit match_binned(image_view<const Pixel> reference, int bins = 64)
         : match_binned(histogram_of(reference, bins)) {}
@@ -114,7 +114,7 @@ class match_binned {
     INSONIFY_MEMBER explicit match_binned(histogram wanted) : wanted_(std::move(wanted)) {
         detail::require(wanted_.counts.size() >= 2 && wanted_.counts.size() <= 65536, "wanted.counts.size()",
                         wanted_.counts.size(), "2 to 65536");
-        detail::require(wanted_.total() > 0, "pixels in the reference", wanted_.total(), "at least 1");
+        detail::require(wanted_.total() > 0, "number of pixels in the reference", wanted_.total(), "at least 1");
     }
 
     template <countable_pixel Pixel, executor_argument E = serial_executor>

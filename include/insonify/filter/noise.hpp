@@ -107,7 +107,7 @@ class scaled_law {
     std::optional<correlated_draws> correlated_;
 };
 
-/// Strikes a pixel if a number p, uniform in (0, 1], is below the density: black below half of it, else white.
+/// Replaces a pixel where p, uniform in (0, 1], is below the density: by black below half the density, else by white.
 struct struck_pixel {
     template <int N>
     INSONIFY_INLINE void apply(lanes<float, N>& value, const lanes<float, N>& p, const lanes<float, N>& density) const {

@@ -47,12 +47,12 @@ class parameter {
     /// @throws invalid_input for no values
     INSONIFY_MEMBER parameter(image_view<const std::uint8_t> types, std::vector<float> values)
         : values_(std::move(values)), types_(types), by_type_(true) {
-        detail::require(!values_.empty(), "values of a parameter by type", values_.size(), "at least 1");
+        detail::require(!values_.empty(), "number of values by type", values_.size(), "at least 1");
     }
 
     INSONIFY_MEMBER bool is_constant() const { return !by_type_ && !values_.empty(); }
 
-    /// The number of all pixels. @pre is_constant()
+    /// The value that all pixels share. @pre is_constant()
     INSONIFY_MEMBER float value() const { return values_.front(); }
 
     /// Sets the image's origin and size before the first call of `row`.

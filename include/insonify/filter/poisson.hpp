@@ -1,7 +1,7 @@
-// Shot noise: each pixel becomes a Poisson count whose mean it was.
+// Shot noise: replaces each pixel by a Poisson count with the pixel as its mean.
 //
-// Counts of means below 10 are found by inversion, larger ones by transformed rejection with squeeze, in 1.1 to 1.2
-// trials. Both follow the Poisson law to the 2^-32 of their uniform numbers.
+// Means below 10 are sampled by inversion, larger ones by transformed rejection with squeeze, in 1.1 to 1.2 trials.
+// Both follow the Poisson distribution to within the 2^-32 resolution of their uniform numbers.
 //
 // Based on: Wolfgang Hormann. The Transformed Rejection Method for Generating Poisson Random Variables. Insurance:
 // Mathematics and Economics 12, 1993 (algorithm PTRS).

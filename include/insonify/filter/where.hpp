@@ -87,8 +87,8 @@ struct where_filter {
     }
 };
 
-/// Applies a filter where `mask` is not 0; the other pixels stay. Measured filters measure the masked pixels alone. An
-/// empty mask leaves the image as it is.
+/// Applies a filter where `mask` is not 0; the other pixels are unchanged. Measured filters measure the masked pixels
+/// alone. A mask of zeros leaves the image unchanged.
 ///
 ///     image | where(is_seabed, match_histogram(pixels_where(reference_mask, reference)))
 ///

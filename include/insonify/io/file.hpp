@@ -1,4 +1,4 @@
-// Whole-file reads and atomic writes: a reader finds the old file or the new one, never a part.
+// Whole-file reads and atomic writes: a reader sees the old file or the new one, never a partial one.
 #pragma once
 
 #include <insonify/core/detail/file.hpp>
@@ -106,7 +106,7 @@ class replacement_file {
     }
 
     /// Call once, at the end.
-    /// @throws io_error if a write failed, or the file can't be brought to disk or into place
+    /// @throws io_error if a write failed, or the file can't be synced to disk or renamed
     void commit() {
         errno = 0;
         const bool written = error_ == 0 && detail::sync_to_disk(file_.get());

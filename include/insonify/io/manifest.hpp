@@ -1,4 +1,4 @@
-// CSV tables by RFC 4180, such as the contents of a data set's images, written atomically.
+// CSV tables as in RFC 4180, such as the manifest of a data set, written atomically.
 //
 // Based on: Yakov Shafranovich. Common Format and MIME Type for Comma-Separated Values (CSV) Files. RFC 4180, 2005.
 #pragma once
@@ -43,7 +43,7 @@ class csv_table {
     /// @throws invalid_input if there isn't one cell for each column
     template <csv_cell... Cells>
     void add(const Cells&... cells) {
-        detail::require(sizeof...(cells) == columns_, "cells in a row", sizeof...(cells),
+        detail::require(sizeof...(cells) == columns_, "number of cells in a row", sizeof...(cells),
                         detail::to_text(columns_) + ", one for each column");
         std::string line;  // whole before it is added, should memory run out
         std::size_t index = 0;

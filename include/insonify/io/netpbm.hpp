@@ -69,10 +69,10 @@ concept storable_pixel = detail::netpbm_sample<typename detail::netpbm_pixel<T>:
 
 inline namespace INSONIFY_FLAGS {
 
-/// The image in the bytes of a netpbm file; the table at the top says which formats a pixel type takes. Bytes behind
-/// the image are ignored, as is the size of a PFM's scale.
-/// @param name  what error messages call the bytes
-/// @throws io_error for bytes that are no such file, or one that doesn't fit the pixel type
+/// Parses the image in the bytes of a netpbm file; the table at the top lists the formats that each pixel type accepts.
+/// Bytes after the image are ignored, as is the absolute value of a PFM's scale.
+/// @param name  of the data, for error messages
+/// @throws io_error if the bytes are not a netpbm file, or its format doesn't fit the pixel type
 template <storable_pixel Pixel>
 image<Pixel> parse_netpbm(std::string_view bytes, std::string_view name = "netpbm data") {
     using sample = typename detail::netpbm_pixel<Pixel>::sample;

@@ -1,5 +1,5 @@
-// PNG files over stb_image_write, which this header declares and never implements: one translation unit of the program
-// says `#define STB_IMAGE_WRITE_IMPLEMENTATION` before it includes stb_image_write.h. Not in the umbrella header.
+// Writes PNG files with stb_image_write, which this header declares but does not implement: one translation unit of the
+// program must define STB_IMAGE_WRITE_IMPLEMENTATION before it includes stb_image_write.h. Not in the umbrella header.
 #pragma once
 
 #include <insonify/core/image.hpp>
@@ -8,7 +8,7 @@
 
 #include <string>
 
-// stb_image_write implements itself wherever it is included once more: the unit that has it in front keeps that one.
+// Including stb_image_write.h twice with STB_IMAGE_WRITE_IMPLEMENTATION defined would define its functions twice.
 #if defined(INCLUDE_STB_IMAGE_WRITE_H)
 #elif __has_include(<stb_image_write.h>)
 #include <stb_image_write.h>

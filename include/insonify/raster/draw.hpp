@@ -69,12 +69,12 @@ inline namespace INSONIFY_FLAGS {
 ///
 /// @param m        a mesh, or a view of your own buffers; at most 2^32 - 2 triangles
 /// @param shader   vertex_shader or vertex_lane_shader
-/// @param target   depth image of up to 2^22 pixels a side
+/// @param target   depth image; each side at most 2^(30 - subpixel_bits) pixels and 2^16 tiles (2^22 pixels by default)
 /// @param options  see draw_options; `draw_options<depth_precision::quick>` for depths in float
 /// @param ex       runs the stages; the result is the same bytes for any executor
-/// @returns the triangles by what happened to them
-/// @throws invalid_input for an index without a position, a number of normals that isn't that of positions, or options
-///         out of range; the target is then untouched
+/// @returns the number of triangles by outcome, and of shaded pixels
+/// @throws invalid_input for an index without a position, a number of normals that is neither 0 nor that of positions,
+///         or options out of range; the target is then untouched
 template <vertex_shader VertexShader, depth_precision Depth = depth_precision::exact,
           executor_argument E = serial_executor>
 draw_stats draw(const mesh_view& m, const VertexShader& shader, const depth_target& target,

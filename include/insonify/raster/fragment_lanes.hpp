@@ -20,7 +20,7 @@ template <class T, int N>
 using pixel_lanes = detail::lanes<T, N>;
 
 /// N adjacent pixels of a row, of which some may not be visible. Shaders take it by reference and pass lanes on by
-/// reference only: wide vectors are passed by value in other registers where another instruction set is compiled for.
+/// reference only: the calling convention of wide vectors depends on the instruction set that is compiled for.
 template <int N, class Varyings>
 class fragment_lanes {
   public:

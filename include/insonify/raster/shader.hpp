@@ -31,7 +31,7 @@ struct vertex {
     std::uint32_t index;
 };
 
-/// Output of a vertex shader that has varyings. Visible is -w <= x <= w, -w <= y <= w (y up), 0 <= z <= w.
+/// Output of a vertex shader that has varyings. The view volume is -w <= x <= w, -w <= y <= w (y up), 0 <= z <= w.
 template <class Varyings>
 struct placed_vertex {
     glm::vec4 clip;

@@ -29,7 +29,8 @@ inline namespace INSONIFY_FLAGS {
 class exact_occlusion {
   public:
     /// See casting_policy.
-    /// @throws invalid_input for an index without a position, or a light as light_frame refuses it
+    /// @throws invalid_input for an index without a position, a directional light out of range (see light_frame), or a
+    ///         point light that is not finite
     template <executor E>
     exact_occlusion(std::span<const caster> casters, const any_light& light, const point_bounds& where, E& ex)
         : casters_(casters.begin(), casters.end()),
@@ -40,7 +41,7 @@ class exact_occlusion {
         std::size_t triangles = 0;
         for (const caster& c : casters_) triangles += c.mesh.triangles.size();
         if (triangles == 0 || where.box.empty()) return;
-        int side = 16;  // small tiles, so that a small caster leaves others' tiles alone
+        int side = 16;  // at least 16 x 16 tiles, so that a small caster shares few tiles with others
         while (side < 64 && static_cast<std::size_t>(side * side) * 1024 < triangles) side *= 2;
         if (const auto* parallel = std::get_if<directional_light>(&light))
             add_parallel_plane(light_frame(*parallel), where.box, side, ex);
@@ -63,13 +64,14 @@ class exact_occlusion {
     /// See triangle_occlusion.
     /// @param eye  position of the camera
     template <executor E>
-    insonify::detail::uninitialized_array<known> known_triangles(std::uint32_t caster, const glm::dvec3& eye,
-                                                                 E& ex) const {
+    insonify::detail::uninitialized_array<decision> decide_triangles(std::uint32_t caster, const glm::dvec3& eye,
+                                                                     E& ex) const {
         if (caster >= grids_.size() || !grids_[caster]) return {};
         const shadow::caster& c = casters_[caster];
         const detail::lit_grid& grid = grids_[caster]->grid();
         const detail::horizon_triangles triangles = grids_[caster]->triangles(eye);
-        insonify::detail::uninitialized_array<known> answers(c.mesh.triangles.size(), insonify::detail::memory_of(ex));
+        insonify::detail::uninitialized_array<decision> answers(c.mesh.triangles.size(),
+                                                                insonify::detail::memory_of(ex));
         // Triangles that other casters may shade are left to the test of points.
         std::vector<std::pair<glm::dvec2, glm::dvec2>> shared;
         const detail::tiled_plane& plane = planes_.front();
@@ -129,14 +131,14 @@ class exact_occlusion {
         return reach;
     }
     /// Whether a caster is a grid that needs no list of triangles under parallel light.
-    static bool is_swept(const caster& c) { return c.grid != nullptr && c.may_skip == skip::facing_its_own; }
+    static bool has_horizon(const caster& c) { return c.grid != nullptr && c.may_skip == skip::facing_its_own; }
     static constexpr std::size_t screened_together = 256;
     /// Screens points of one mesh, of parallel light.
     void screen(const points& at, std::size_t first, std::size_t last, const results& into) const {
         const std::uint32_t own = at.mesh[first];
         const bool is_grid = own < grids_.size() && grids_[own];
-        known answers[screened_together];
-        std::fill_n(answers, last - first, known::nothing);
+        decision answers[screened_together];
+        std::fill_n(answers, last - first, decision::undecided);
         if (is_grid && at.face_light) grids_[own]->decide_own(at, first, last, answers, level_);
         const detail::tiled_plane& state = planes_.front();
         for (std::size_t i = first; i < last; ++i) {
@@ -145,8 +147,9 @@ class exact_occlusion {
             if (occupant == no_caster || (occupant != several_casters && occupant >= at.casters)) {
                 into.lit[i] = 1;
             } else if (occupant == own && is_grid) {
-                const known answer = answers[i - first];
-                const bool is_dark = answer == known::nothing ? is_blocked_by_grid(own, at, i) : answer == known::dark;
+                const decision answer = answers[i - first];
+                const bool is_dark =
+                    answer == decision::undecided ? is_blocked_by_grid(own, at, i) : answer == decision::dark;
                 into.lit[i] = is_dark ? 0.0f : 1.0f;
                 into.caster[i] = is_dark ? own : invalid_id;
             }
@@ -171,7 +174,7 @@ class exact_occlusion {
     template <executor E>
     void add_parallel_plane(const light_frame& frame, const bounding_box& bounds, int side, E& ex) {
         for (std::size_t i = 0; i < casters_.size(); ++i)
-            if (is_swept(casters_[i])) grids_[i].emplace(casters_[i], frame, level_, ex);
+            if (has_horizon(casters_[i])) grids_[i].emplace(casters_[i], frame, level_, ex);
         const detail::light_plane plane(frame);
         const auto [lower, upper] = detail::extent_on(plane, [&](int i) { return bounds.corner(i); });
         add_plane(plane, {lower, upper - lower, side, side}, 0x1p-44 * reach_of(bounds) * (1 + frame.cot_elevation()),

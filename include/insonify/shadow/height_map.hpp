@@ -27,7 +27,7 @@ struct map_extent {
     double ceiling = -(std::numeric_limits<double>::max)();
 
     bool empty() const { return highest.x < lowest.x || highest.y < lowest.y; }
-    /// How far from the frame's origin it goes along v and z, which a low light doesn't stretch.
+    /// Largest distance from the frame's origin along v and z. Not along u, which a low light stretches.
     double reach() const { return (std::max)({-lowest.y, highest.y, -floor, ceiling}); }
 
     void include(const glm::dvec3& uvz) {
@@ -37,7 +37,7 @@ struct map_extent {
         ceiling = (std::max)(ceiling, uvz.z);
     }
 
-    /// Only rays that both meet matter; all casters' heights do.
+    /// The part over the rays of the receivers, with the heights of all casters.
     map_extent clipped_to(const map_extent& receivers) const {
         map_extent both = *this;
         both.lowest = {(std::max)(lowest.x, receivers.lowest.x), (std::max)(lowest.y, receivers.lowest.y)};
@@ -73,7 +73,7 @@ map_extent extent_of(const mesh_view& m, const affine& to_world, const light_fra
     return whole;
 }
 
-/// The vertex callable of maps: from a mesh's own coordinates to clip space, where w is one.
+/// Vertex shader of height maps: from a mesh's coordinates to clip space, with w = 1.
 struct map_placement {
     glm::mat3 axes;
     glm::vec3 start;
@@ -98,8 +98,8 @@ struct map_grid {
 
     map_grid() = default;
 
-    /// @param texel_length  metres along v; grows if more than `largest` texels a side were needed
-    /// @param stretch       how much longer texels are along u
+    /// @param texel_length  metres along v; enlarged if more than `largest` texels a side would be needed
+    /// @param stretch       length of a texel along u over its length along v
     /// @throws invalid_input for a texel that isn't positive or a `largest` outside [1, 32768]
     map_grid(const map_extent& extent, double texel_length, int largest, double stretch = 1)
         : origin(extent.lowest), floor(extent.floor) {
@@ -124,8 +124,8 @@ struct map_grid {
 
     bool empty() const { return columns == 0; }
 
-    /// The vertex callable that puts a mesh on the grid. The whole way from mesh to clip space is one affine map; it is
-    /// made in double and small when narrowed. Row 0 is where v is smallest, so triangles appear mirrored.
+    /// Vertex shader that maps a mesh onto the grid. Mesh to clip space is one affine map, composed in double and
+    /// narrowed last, when its numbers are small. Row 0 is where v is smallest, so triangles appear mirrored.
     auto placing(const light_frame& frame, const affine& to_world) const {
         const glm::dvec2 scale{2 / (texel.x * columns), 2 / (texel.y * rows)};
         const auto to_clip = [&](const glm::dvec3& uvz) {
@@ -157,15 +157,17 @@ class height_map {
     height_map() : frame_(directional_light{}) {}
 
     /// @param frame    of the light
-    /// @param extent   which rays, and between which heights; casters outside are left out
+    /// @param extent   (u, v) of the rays, and range of heights; casters outside it are clipped
+    /// @param texel    metres between rays along u and v; grows if the map would have more than `largest` texels a side
     /// @throws invalid_input as map_grid does
     height_map(const light_frame& frame, const map_extent& extent, double texel, int largest = 8192)
         : frame_(frame),
           grid_(extent, texel, largest),
           heights_(grid_.columns, grid_.rows, empty_depth(keep_depth::larger)) {}
 
-    /// Lets a mesh cast; several may share a map.
+    /// Draws a mesh into the map as a caster; several meshes may share a map.
     /// @param to_world  from the mesh's frame to the one in which the light is described
+    /// @throws invalid_input for an index without a position
     template <executor_argument E = serial_executor>
     draw_stats cast(const mesh_view& m, const affine& to_world, E&& ex = {}) {
         if (heights_.empty()) return {};
@@ -188,7 +190,7 @@ class height_map {
     }
     /// A slope dz / du in stored heights per texel.
     float on_map(double slope) const { return static_cast<float>(slope * (grid_.texel.y / grid_.relief)); }
-    /// What a texel's ray meets first: a stored height, minus infinity for nothing.
+    /// Stored height of the first surface that a texel's ray meets; minus infinity if there is none.
     float operator()(int column, int row) const { return heights_(column, row); }
 
   private:

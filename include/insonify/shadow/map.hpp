@@ -1,8 +1,8 @@
 // Shadow maps: one height map for each caster, looked up at the nearest texel (`map`) or averaged over several (`pcf`).
 //
-// A target's map covers the target alone, so its texels stay fine in large pictures. An edge is off by half a texel at
-// most, see light.hpp; a point on a mesh gets a depth bias along the slope of its facet, see lookup.hpp. Light from
-// nearby is refused.
+// A target's map covers the target alone, so its texels stay fine in large pictures. A shadow edge is off by at most
+// half a texel. A point on a mesh gets a depth bias along the slope of its facet, see map_lookup.hpp. Point lights are
+// rejected.
 #pragma once
 
 #include <insonify/core/executor.hpp>
@@ -36,7 +36,7 @@ inline void validate(const map_layout& m) {
 class map_occlusion {
   public:
     /// See casting_policy.
-    /// @throws invalid_input for a layout out of its range, for light from nearby, and for an index without a position
+    /// @throws invalid_input for a layout out of range, a point_light, or an index without a position
     template <executor E>
     map_occlusion(const map_layout& layout, std::span<const caster> casters, const any_light& light,
                   const point_bounds& bounds, E& ex)
@@ -103,7 +103,7 @@ class map_occlusion {
 /// A map of the casters' heights along the light, looked up at the nearest texel: hard edges.
 struct map {
     float texels_per_pixel = 1.5f;  ///< of the points' spacing; a shadow edge is off by half a texel at most
-    int largest = 8192;             ///< texels a side; what would need more gets coarser texels
+    int largest = 8192;             ///< texels a side; texels are enlarged where a map would exceed it
 
     /// See casting_policy.
     /// @throws invalid_input as map_occlusion does
@@ -114,7 +114,7 @@ struct map {
     }
 };
 
-/// The same map, averaged over (2 radius + 1)^2 texels: edges are soft over as many.
+/// The same map, averaged over (2 radius + 1)^2 texels, which blurs shadow edges over 2 radius + 1 texels.
 struct pcf {
     float texels_per_pixel = 1.5f;
     int largest = 8192;

@@ -65,7 +65,7 @@ class map_receiver {
                  at_.y < static_cast<float>(map_.rows()) + reach);
     }
 
-    /// How many of the (2 radius + 1)^2 rays around the point get past the map to this surface. Expects !is_beyond.
+    /// Number of the (2 radius + 1)^2 rays around the point that no caster blocks. @pre !is_beyond(radius)
     int open_rays(int radius) const {
         const int column = static_cast<int>(at_.x + 64) - 64, row = static_cast<int>(at_.y + 64) - 64;  // rounds down
         int open = 0;

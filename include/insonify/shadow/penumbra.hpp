@@ -1,6 +1,6 @@
-// Soft shadows of a round light: exact shadows of several points of its disc, of which a point gets its share.
+// Soft shadows of a disc light: exact shadows from several sample points on the disc, averaged.
 //
-// Sample points fill the disc as a sunflower's seeds do, ring by ring, the first in the middle.
+// Sample points fill the disc in Vogel's sunflower spiral, the first at the centre.
 //
 // Based on: Helmut Vogel. A Better Way to Construct the Sunflower Head. Mathematical Biosciences 44, 1979.
 #pragma once
@@ -84,7 +84,7 @@ class penumbra_occlusion {
     };
 
     /// A point of the light, or none below the horizon.
-    /// @param beside  its place on the disc, across and up, over the light's distance
+    /// @param beside  its offset from the disc's centre, across and up, divided by the light's distance
     static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& beside) {
         if (beside == glm::dvec2(0)) return light;
         const auto place = [&](const glm::dvec3& middle, const glm::dvec2& travel) {
@@ -105,7 +105,7 @@ class penumbra_occlusion {
         return directional_light{numeric::atan2(-d.y, -d.x), numeric::atan2(d.z, level)};
     }
 
-    /// Adds what one sample lights of the points whose facets face it on the side of the light's middle.
+    /// Adds the light of one sample to the points whose facets show it and the light's centre the same side.
     void add(std::size_t number, const points& at, const results& one, const results& into) const {
         const sample &middle = lights_.front(), &here = lights_[number];
         glm::dvec3 to_middle = middle.toward({}), to_here = here.toward({});
@@ -133,11 +133,12 @@ class penumbra_occlusion {
 
 }  // namespace INSONIFY_FLAGS
 
-/// Soft edges: exact shadows of several points of a round light. Each point costs as much as `exact`. The caster is
-/// that of the light's middle. The disc of light from nearby faces the origin of the frame in which it is described.
+/// Soft edges: exact shadows from several points of a disc light. Each point costs as much as `exact`. The caster is
+/// the one that blocks the light's centre. The disc of a point light faces the origin of the frame in which the light
+/// is described.
 struct penumbra {
-    float diameter = static_cast<float>(numeric::to_radians(0.5));  ///< of the light, in radians as the ground sees it
-    int samples = 16;                                               ///< points of it, the first in the middle
+    float diameter = static_cast<float>(numeric::to_radians(0.5));  ///< of the light as seen from the ground, radians
+    int samples = 16;                                               ///< points on the disc, the first at its centre
 
     /// Radius of the light over its distance.
     /// @throws invalid_input for a diameter out of range

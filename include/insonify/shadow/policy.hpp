@@ -58,7 +58,7 @@ struct points {
     std::span<const std::uint32_t> mesh;      ///< index of the caster that a point lies on, or invalid_id
     std::span<const std::uint32_t> triangle;  ///< of that caster; it does not block its own points
     std::uint32_t casters = invalid_id;       ///< only casters with a lower index are tested
-    bool face_light = true;                   ///< facets of the points face the light; if not, only `caster` is used
+    bool face_light = true;                   ///< facets of the points face the light; if not, `lit` is ignored
 
     INSONIFY_MEMBER std::size_t size() const { return x.size(); }
     INSONIFY_MEMBER glm::dvec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
@@ -156,14 +156,14 @@ inline constexpr std::size_t max_batch = 65536;  ///< points, see collective_occ
 inline constexpr float unknown = -1;             ///< in results::lit, between screening and testing
 
 /// Result of a test that may leave a triangle or a point undecided.
-enum class known : std::uint8_t { lit, dark, nothing };
+enum class decision : std::uint8_t { lit, dark, undecided };
 
-/// A collective occlusion that decides whole triangles: `structure.known_triangles(caster, eye, executor)` returns a
+/// A collective occlusion that decides whole triangles: `structure.decide_triangles(caster, eye, executor)` returns a
 /// result for each triangle of a caster as seen by the camera, or an empty vector.
 template <class S>
 concept triangle_occlusion = collective_occlusion<S> &&
     requires(const S& structure, std::uint32_t caster, const glm::dvec3& eye, serial_executor& ex) {
-    { structure.known_triangles(caster, eye, ex) } -> std::same_as<insonify::detail::uninitialized_array<known>>;
+    { structure.decide_triangles(caster, eye, ex) } -> std::same_as<insonify::detail::uninitialized_array<decision>>;
 };
 
 }  // namespace shadow

@@ -63,10 +63,10 @@ class thread_pool {
             const std::lock_guard lock(mutex_);
             job_ = nullptr;  // late workers find no job
         }
-        watch([&] { return work.helpers.load(std::memory_order_relaxed) == 0; });
+        spin_until([&] { return work.helpers.load(std::memory_order_relaxed) == 0; });
         {
             std::unique_lock lock(mutex_);
-            work_left_.wait(lock, [&] { return work.helpers == 0; });
+            helpers_done_.wait(lock, [&] { return work.helpers == 0; });
         }
         busy_ = false;
         if (work.error) std::rethrow_exception(work.error);
@@ -100,16 +100,17 @@ class thread_pool {
 
     /// Spins for a few tens of microseconds or until the condition holds. A picture takes some twenty bulks, and
     /// sleeping between two of them takes longer than most of the gaps.
-    template <class Awaited>
-    INSONIFY_TAGGED static void watch(const Awaited& has_come) {
+    template <class Condition>
+    INSONIFY_TAGGED static void spin_until(const Condition& condition) {
 #if defined(__SSE2__)
-        for (int i = 0; i < 2000 && !has_come(); ++i) __builtin_ia32_pause();
+        for (int i = 0; i < 2000 && !condition(); ++i) __builtin_ia32_pause();
 #else
-        (void)has_come;
+        (void)condition;
 #endif
     }
 
-    /// An exception past this point would destroy members that running workers use.
+    /// Starts as many workers as the system allows. No exception may leave here: it would destroy members that workers
+    /// already started are using.
     INSONIFY_TAGGED void start(int workers) {
 #if defined(__cpp_exceptions)
         try {
@@ -124,7 +125,7 @@ class thread_pool {
     INSONIFY_TAGGED void serve() {
         std::size_t seen = 0;
         for (;;) {
-            watch([&] { return generation_.load(std::memory_order_relaxed) != seen; });
+            spin_until([&] { return generation_.load(std::memory_order_relaxed) != seen; });
             std::unique_lock lock(mutex_);
             work_arrived_.wait(lock, [&] {
                 return stopping_ || (job_ != nullptr && generation_.load(std::memory_order_relaxed) != seen);
@@ -136,7 +137,7 @@ class thread_pool {
             lock.unlock();
             run(work);
             lock.lock();
-            if (--work.helpers == 0) work_left_.notify_all();
+            if (--work.helpers == 0) helpers_done_.notify_all();
         }
     }
 
@@ -144,7 +145,7 @@ class thread_pool {
     std::atomic<bool> busy_{false};
     std::mutex mutex_;
     std::condition_variable work_arrived_;
-    std::condition_variable work_left_;
+    std::condition_variable helpers_done_;
     job* job_ = nullptr;
     std::atomic<std::size_t> generation_{0};  // changed under mutex_
     bool stopping_ = false;

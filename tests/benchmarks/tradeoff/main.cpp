@@ -192,7 +192,7 @@ void measure_targets(const options& o, report::contents& into) {
     std::vector<in::scene> scenes;
     std::vector<std::string> names;
     for (const double error : {4.0, 1.0, 0.25, 0.05}) {
-        in::accuracy::settings<> how{.side_error = error, .shadow_error = error, .rig = rig};
+        in::accuracy::settings<> how{.silhouette_error = error, .shadow_edge_error = error, .rig = rig};
         scenes.push_back(targets([&](const auto& shape, const in::pose& at) { return how.modelled(shape, at); }));
         std::size_t triangles = 0;
         for (const in::target& t : scenes.back().targets) triangles += t.shape->triangles.size();

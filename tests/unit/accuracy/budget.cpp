@@ -117,7 +117,7 @@ TEST_CASE("A target's facets displace its outline and its shadow by less than th
     const double pixel = view.ground_sampling();
     const double sine = std::sin(0.15);
     for (const double error : {0.1, 0.5, 2.0}) {
-        const acc::settings<> how{.side_error = 1e9, .shadow_error = error, .rig = rig};
+        const acc::settings<> how{.silhouette_error = 1e9, .shadow_edge_error = error, .rig = rig};
         // Lying across the light, a cylinder's facets face it: their sagitta, seen along the light, on level ground.
         const in::cylinder thick = how.modelled(in::cylinder{.radius = 0.3f, .length = 1}, {});
         const auto shadow_off = [&](int segments) {
@@ -126,7 +126,7 @@ TEST_CASE("A target's facets displace its outline and its shadow by less than th
         CHECK(shadow_off(thick.segments) <= error * (1 + 1e-6));
         if (thick.segments > 3) CHECK(shadow_off(thick.segments - 1) > error * (1 - 1e-6));
         // Halfway up to the camera everything looks twice as large.
-        const acc::settings<> sides{.side_error = error, .shadow_error = 1e9, .rig = rig};
+        const acc::settings<> sides{.silhouette_error = error, .shadow_edge_error = 1e9, .rig = rig};
         const double low = sides.deviation({.position = {0, 0, 0}}, 0),
                      high = sides.deviation({.position = {0, 0, 3}}, 0);
         CHECK(low == Approx(error * pixel));
@@ -152,7 +152,7 @@ TEST_CASE("The outline of a modelled ball is within the tolerance of that of a f
     };
     const auto truth = outline({.radius = 0.4f, .segments = 512});
     for (const double error : {0.5, 2.0}) {
-        const acc::settings<in::shadow::none> how{.side_error = error, .rig = rig};
+        const acc::settings<in::shadow::none> how{.silhouette_error = error, .rig = rig};
         const in::sphere ball = how.modelled(in::sphere{.radius = 0.4f}, pose);
         const auto off = acc::compare_masks(outline(ball), truth).mean_boundary_displacement();
         CAPTURE(error, ball.segments);
@@ -184,7 +184,7 @@ TEST_CASE("Settings are values: they can be read, changed and handed to render")
     CHECK(bare.subpixel_bits == 16);
     CHECK(acc::settings_for({.silhouette = 0.5}, sb::none{}, t.rig).subpixel_bits ==
           in::render_options<>{}.subpixel_bits);
-    CHECK(bare.shadow_error == 0.25);
+    CHECK(bare.shadow_edge_error == 0.25);
 }
 
 TEST_CASE("Budgets and probes out of range are refused") {
@@ -194,7 +194,7 @@ TEST_CASE("Budgets and probes out of range are refused") {
                                  acc::budget{.height = nan}, acc::budget{.intensity = 0}})
         CHECK_THROWS_AS(acc::settings_for(b, sb::flat{}, rig), in::invalid_input);
     for (const acc::probe& p :
-         {acc::probe{.chips = 0}, acc::probe{.pixels = 0}, acc::probe{.finest = 0.5}, acc::probe{.spare = 1.5}})
+         {acc::probe{.chips = 0}, acc::probe{.pixels = 0}, acc::probe{.finest = 0.5}, acc::probe{.usable_share = 1.5}})
         CHECK_THROWS_AS(acc::settings_for({}, sb::flat{}, rig, p), in::invalid_input);
 }
 

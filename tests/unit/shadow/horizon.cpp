@@ -53,13 +53,13 @@ TEST_CASE("A triangle that is known to be lit or dark is so at all of its points
                 const swept_seabed bottom(recipe, 33, light);
                 const in::bounding_box within{{-1.5, -1.5, -1}, {1.5, 1.5, 1}};
                 const auto built = shadow::exact{}.build(std::span(&bottom.caster(), 1), light, {within}, serial);
-                const auto answers = built.known_triangles(0, {0.3, -0.2, 5}, serial);
+                const auto answers = built.decide_triangles(0, {0.3, -0.2, 5}, serial);
                 REQUIRE(answers.size() == bottom.surface->triangles.size());
                 CAPTURE(recipe.legend().front().name, elevation, azimuth);
                 int wrong = 0;
                 for (std::uint32_t i = 0; i < answers.size(); ++i) {
                     ++all;
-                    if (answers[i] == shadow::known::nothing) continue;
+                    if (answers[i] == shadow::decision::undecided) continue;
                     ++known;
                     const glm::dvec3 a = bottom.surface.corner(i, 0), b = bottom.surface.corner(i, 1),
                                      c = bottom.surface.corner(i, 2), centre = (a + b + c) / 3.0;
@@ -67,7 +67,7 @@ TEST_CASE("A triangle that is known to be lit or dark is so at all of its points
                     for (const glm::dvec3& corner : {a, b, c}) {
                         const glm::dvec3 p = corner + 1e-3 * (centre - corner);
                         const bool is_dark = !faces || bottom.surface.is_blocked(p, i);
-                        wrong += is_dark != (answers[i] == shadow::known::dark) ? 1 : 0;
+                        wrong += is_dark != (answers[i] == shadow::decision::dark) ? 1 : 0;
                     }
                 }
                 CHECK(wrong == 0);
@@ -88,7 +88,7 @@ TEST_CASE("Where another caster may shade a seabed, its triangles are known no l
             const lit::mesh box(in::to_mesh(in::cube{.size = glm::vec3(0.3f)}), light, place);
             const shadow::caster casters[] = {lit::caster_of(*box, place), bottom.caster()};
             const auto built = shadow::exact{}.build(casters, light, {{{-1.5, -1.5, -1}, {1.5, 1.5, 1}}}, serial);
-            const auto answers = built.known_triangles(1, {0.3, -0.2, 5}, serial);
+            const auto answers = built.decide_triangles(1, {0.3, -0.2, 5}, serial);
             CAPTURE(elevation, azimuth);
             int wrong = 0;
             for (std::uint32_t i = 0; i < answers.size(); ++i) {
@@ -97,9 +97,9 @@ TEST_CASE("Where another caster may shade a seabed, its triangles are known no l
                 const bool is_shaded =
                     box.is_blocked(a) || box.is_blocked(b) || box.is_blocked(c) || box.is_blocked(centre);
                 if (is_shaded) ++shaded;
-                if (answers[i] == shadow::known::nothing) continue;
+                if (answers[i] == shadow::decision::undecided) continue;
                 wrong += is_shaded ? 1 : 0;
-                if (answers[i] == shadow::known::lit) ++lit;
+                if (answers[i] == shadow::decision::lit) ++lit;
             }
             CHECK(wrong == 0);
         }

@@ -310,5 +310,5 @@ TEST_CASE("settings_for() refuses budgets and probes by name") {
                                         FIELD(height, {nan_value, -1, 0}), FIELD(intensity, {nan_value, -1, 0})});
     check_fields<in::accuracy::probe>("probe.", {.chips = 1, .pixels = 8}, [&](const auto& p) { use({}, p); },
                                       {FIELD(chips, outside_whole(1, 1024)), FIELD(pixels, outside_whole(1, 2048)),
-                                       FIELD(finest, outside(1, 8)), FIELD(spare, outside(0, 1))});
+                                       FIELD(finest, outside(1, 8)), FIELD(usable_share, outside(0, 1))});
 }

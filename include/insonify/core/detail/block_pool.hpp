@@ -41,8 +41,8 @@ class block_pool {
         return memory;
     }
 
-    /// Keeps a block for later. The oldest ones are freed so that kept blocks and those in use together take at most
-    /// half as much again as was ever in use at once.
+    /// Keeps a block for later. Frees the oldest kept ones so that kept blocks and those in use together stay within
+    /// 1.5 times the peak in use since the last release.
     INSONIFY_TAGGED void deallocate(void* memory, std::size_t bytes) noexcept {
         const std::size_t size = size_class(bytes);
         const guard lock(busy_);

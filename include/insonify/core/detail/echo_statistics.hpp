@@ -96,7 +96,7 @@ inline double mean_of_rice(double steady) {
 }
 
 /// Correlation length of the Gaussian field whose intensities have a correlation of 1 / e at `length`.
-/// @param of_field  correlation of the intensities for one of the field; rises from 0 at 0 to 1 at 1
+/// @param of_field  correlation of the intensities as a function of the field's; rises from 0 at 0 to 1 at 1
 template <class Law>
 double field_length(double length, const Law& of_field) {
     double low = 0, high = 1;

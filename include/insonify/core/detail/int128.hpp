@@ -42,7 +42,7 @@ struct int128 {
     /// -1, 0 or 1.
     constexpr int sign() const { return high < 0 ? -1 : (high > 0 || low > 0) ? 1 : 0; }
 
-    /// Divided by 2^bits, 0 < bits < 64, rounded down; what does not fit 64 bits becomes the end of their range.
+    /// Divides by 2^bits, 0 < bits < 64, rounding down, and saturates to 64 bits.
     constexpr std::int64_t shifted_down(int bits) const {
         constexpr auto top = (std::numeric_limits<std::int64_t>::max)();
         constexpr auto bottom = (std::numeric_limits<std::int64_t>::min)();

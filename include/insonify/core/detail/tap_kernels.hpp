@@ -45,7 +45,7 @@ struct taps_along_row {
     }
 };
 
-/// into[i] = sum over k of the taps' |k - middle| times rows[k][i]
+/// into[i] = sum over k of taps[|k - middle|] rows[k][i]
 struct taps_across_rows {
     std::span<const float> taps;         ///< half of them, from the middle outwards
     std::span<const float* const> rows;  ///< 2 taps.size() - 1

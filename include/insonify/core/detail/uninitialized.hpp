@@ -18,7 +18,7 @@ namespace detail {
 /// Constructor tag: elements are left uninitialized.
 struct uninitialized {};
 
-/// Raw memory: of a pool if one is given and at least 64 KB are wanted, else of the heap.
+/// Raw memory, from the pool if there is one and the size is at least 64 KiB, else from the heap.
 class memory_block {
   public:
     INSONIFY_MEMBER memory_block() noexcept {}
@@ -91,10 +91,10 @@ class uninitialized_array {
     }
     INSONIFY_MEMBER ~uninitialized_array() { std::destroy_n(data(), size_); }
 
-    /// Discards all elements, for others.
+    /// Discards all elements and creates `count` new ones.
     /// @throws std::bad_alloc
     INSONIFY_TAGGED void resize(std::size_t count) {
-        // No machine has the bytes of the largest count, so that it fails as other large ones do.
+        // Counts whose bytes would overflow are clamped to a size that no machine has, so that they throw too.
         constexpr std::size_t largest = PTRDIFF_MAX / sizeof(T);
         const std::size_t bytes = (std::min)(count, largest) * sizeof(T);
         std::destroy_n(data(), size_);

@@ -16,7 +16,7 @@ inline namespace INSONIFY_ABI {
 
 /// Instruction sets that kernels are compiled for, slowest first.
 enum class isa {
-    scalar,    ///< one value at a time: builds with INSONIFY_SIMD=0; others take it for `baseline`
+    scalar,    ///< one value at a time, in builds with INSONIFY_SIMD=0; other builds use `baseline` instead
     baseline,  ///< the 128-bit vectors that every processor of the target has (SSE2, NEON)
     avx2,      ///< 256-bit integer and float vectors
     avx512,    ///< 512-bit ones (F, BW, DQ and VL), for kernels that gain by them

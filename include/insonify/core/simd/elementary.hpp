@@ -12,7 +12,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Converts an integer below 2^52: as the mantissa of a double of 2^52, it adds its value.
+/// Converts integers below 2^52: puts them into the mantissa of 2^52, then subtracts 2^52.
 template <int N>
 INSONIFY_INLINE void to_double(lanes<double, N>& into, const lanes<std::uint64_t, N>& number) {
     const lanes<std::uint64_t, N> bits = number | std::uint64_t{0x4330000000000000u};

@@ -1,8 +1,8 @@
 // SIMD versions of random.hpp: Philox blocks, uniform and normal draws, as doubles and as floats.
 //
-// Doubles are the draws of random.hpp to the same bits. Floats follow the same law to a float's rounding: a normal draw
-// differs by less than 6e-7 from exact arithmetic on its two words, and no probability by more than 6e-8. Both give the
-// same bits at every N.
+// Doubles are bit-identical to the draws of random.hpp. Floats have the same distribution up to rounding: a normal draw
+// differs by less than 6e-7 from exact arithmetic on its two words, and no probability differs by more than 6e-8. Both
+// give the same bits at every N.
 #pragma once
 
 #include <insonify/core/simd/dispatch.hpp>

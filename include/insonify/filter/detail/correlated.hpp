@@ -20,7 +20,7 @@ inline void require_correlation(const char* name, const correlation_length& leng
 }
 
 /// Standard normal draws, one for each pixel and field, correlated along rows and columns. A draw depends on the
-/// pixel's place alone. Consecutive rows share the rows that both filter.
+/// pixel's position alone. Consecutive rows reuse the blurred rows that both need.
 class correlated_draws {
   public:
     /// @param x, y  taps of the filters along rows and columns

@@ -70,7 +70,7 @@ class gamma_texture {
         }
     }
 
-    /// Powers of the series in Hermite polynomials; what they leave of the variance counts as the last term.
+    /// Powers of the terms of the Hermite series; the variance that they leave is added to the last one.
     void expand(double shape) {
         std::array<double, terms> coefficient{};
         for (std::size_t knot = 0; knot < knots; ++knot) {

@@ -34,7 +34,7 @@ struct assembly_kernel;
 
 /// A mesh on the screen: vertices, wide triangles, and bins that refer to triangles by id. The id of a compact triangle
 /// is its index in the mesh; those of wide triangles follow, in submission order.
-/// @param Real  of depths: double for exact ones, float for quick ones
+/// @tparam Real  type of depths: double for exact ones, float for quick ones
 template <class Real>
 class screen_mesh {
   public:

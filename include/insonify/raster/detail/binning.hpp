@@ -48,8 +48,7 @@ struct tile_grid {
           rows((height + (1 << log2_tile) - 1) >> log2_tile) {}
 
     std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
-    /// Tiles that one call of an executor takes, so that they share memory; in small pictures one, so that there are
-    /// calls for every thread.
+    /// Tiles per call of the executor, which share one buffer; one in small pictures, so that every thread gets work.
     std::size_t run() const { return count() < 64 ? 1 : 4; }
     /// The pixels of a tile, clipped to the image.
     rect pixels(std::size_t tile, int width, int height) const {

@@ -63,7 +63,7 @@ struct pixel_grid {
     std::int64_t half() const { return std::int64_t{1} << (subpixel_bits - 1); }
     std::int64_t center(int pixel) const { return pixel * unit() + half(); }
     /// The first pixel of an axis whose centre is at a coordinate or beyond, clamped to [0, extent]. By the fill rule
-    /// this is also the end of the pixels in front of a high coordinate.
+    /// this is also the exclusive end of the pixels below an upper bound.
     int first_center(std::int64_t coordinate, int extent) const {
         return static_cast<int>(std::clamp<std::int64_t>((coordinate + half() - 1) >> subpixel_bits, 0, extent));
     }
@@ -117,7 +117,7 @@ inline bool is_outside(const rect& centers, const pixel_grid& grid) {
     return centers.x0 == grid.width || centers.y0 == grid.height || centers.x1 == 0 || centers.y1 == 0;
 }
 
-/// E(x, y) >= 0 at the centre of pixel (x, y) exactly if the pixel is on the inner side, fill rule included.
+/// E(x, y) >= 0 at the centre of pixel (x, y) if and only if the pixel is on the inner side, fill rule included.
 struct edge_function {
     std::int64_t origin;  ///< E at the first pixel of the rectangle that it was set up for
     std::int64_t dx, dy;  ///< per pixel to the right and down

@@ -1,4 +1,4 @@
-// Whether a triangle blocks the light of a point, decided in doubles: the rule that everything faster has to obey.
+// Whether a triangle blocks the light of a point, decided in doubles: the reference that every faster test reproduces.
 //
 // A triangle blocks a point's ray towards the light if the ray passes through it, edges included, and the point lies
 // behind it by more than rounding can have moved either (2^-40 of the scene's size). There is no bias. Corners are
@@ -45,7 +45,8 @@ class light_rays {
     bool are_blocked(const glm::dvec3& corner_a, const glm::dvec3& corner_b, const glm::dvec3& corner_c,
                      const glm::dvec3& from) const {
         const glm::dvec3 to_light = toward(from), a = corner_a - from, b = corner_b - from, c = corner_c - from;
-        // The corners as the ray sees them, along the two axes that it follows less: one rounding for each corner.
+        // Corners sheared along the ray, in the two axes of its smaller components. A corner that triangles share is
+        // rounded alike for each.
         const glm::dvec3 way{numeric::abs(to_light.x), numeric::abs(to_light.y), numeric::abs(to_light.z)};
         const int axis = way.x >= way.y ? (way.x >= way.z ? 0 : 2) : (way.y >= way.z ? 1 : 2);
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -61,7 +62,7 @@ class light_rays {
         const bool is_left = bc >= 0 && ca >= 0 && ab >= 0, is_right = bc <= 0 && ca <= 0 && ab <= 0;
         if (!is_left && !is_right) return false;
         const glm::dvec3 normal = numeric::cross(b - a, c - a);
-        // From the corner that is nearest: another may lie so far off that its distance rounds away the point's.
+        // Measured from the nearest corner: the rounding error of a distant one may exceed the point's distance.
         const auto size = [](const glm::dvec3& d) { return numeric::abs(d.x) + numeric::abs(d.y) + numeric::abs(d.z); };
         const glm::dvec3& some = size(a) <= size(b) ? a : b;
         const double along = numeric::dot(normal, to_light),

@@ -21,10 +21,9 @@ class grid_caster {
           bounds_(mesh_, c.box, *c.grid, travel_, level, ex),
           blocks_(bounds_.grid(), bounds_.heights(), level, ex) {}
 
-    /// Decides some of its own points that face the light, in the frame of the light, as far as the bounds of its
-    /// horizon do.
-    /// @param into  of the first
-    void decide_own(const points& at, std::size_t first, std::size_t last, known* into, isa level) const {
+    /// Decides points [first, last), which lie on this caster and face the light, where the horizon's bounds suffice.
+    /// @param into  results, from that of point `first` on
+    void decide_own(const points& at, std::size_t first, std::size_t last, decision* into, isa level) const {
         insonify::detail::dispatch(kernel{*this, at, first, last, into}, level);
     }
     /// Whether it blocks the light of one of its own points that faces the light.
@@ -33,14 +32,14 @@ class grid_caster {
     template <class Decide>
     bool blocks_own(const glm::dvec3& p, const Decide& decide) const {
         const glm::dvec3 at = transform_point(to_mesh_, p);
-        const known answer = bounds_.at(at);
-        if (answer != known::nothing) return answer == known::dark;
-        return horizon_walk(bounds_, blocks_, at).leads_from_surface(decide);
+        const decision answer = bounds_.at(at);
+        if (answer != decision::undecided) return answer == decision::dark;
+        return horizon_walk(bounds_, blocks_, at).is_blocked_from_surface(decide);
     }
-    /// The same of any point.
+    /// The same for any point.
     template <class Decide>
     bool blocks(const glm::dvec3& p, const Decide& decide) const {
-        return horizon_walk(bounds_, blocks_, transform_point(to_mesh_, p)).leads_from_anywhere(decide);
+        return horizon_walk(bounds_, blocks_, transform_point(to_mesh_, p)).is_blocked_from_anywhere(decide);
     }
 
     /// See horizon_triangles.
@@ -55,7 +54,7 @@ class grid_caster {
         const grid_caster& caster;
         const points& at;
         std::size_t first, last;
-        known* into;
+        decision* into;
 
         template <int Width>
         INSONIFY_INLINE void run() const {
@@ -75,7 +74,7 @@ class grid_caster {
             lanes<std::int64_t, N> answers;
             caster.bounds_.decide<N>(answers, p);
             for (int k = 0; k < N; ++k)
-                into[i - first + static_cast<std::size_t>(k)] = static_cast<known>(lane(answers, k));
+                into[i - first + static_cast<std::size_t>(k)] = static_cast<decision>(lane(answers, k));
         }
     };
 

@@ -36,7 +36,7 @@ struct horizon_bound {
 
 /// Computes the bounds of adjacent strips, column by column: neighbours read the same heights.
 struct horizon_kernel {
-    static constexpr int most = 64;  ///< strips
+    static constexpr int max_strips = 64;
 
     const lit_grid& grid;
     const grid_heights& heights;
@@ -69,18 +69,18 @@ struct horizon_kernel {
     }
 
   private:
-    static constexpr int room = most + 2 * 16;  ///< rows around the strips, in whole vectors
+    static constexpr int room = max_strips + 2 * 16;  ///< rows around the strips, in whole vectors
 
     struct bounds_so_far {
-        float dark_below[static_cast<unsigned>(most)], lit_above[static_cast<unsigned>(most)];
+        float dark_below[static_cast<unsigned>(max_strips)], lit_above[static_cast<unsigned>(max_strips)];
 
         bounds_so_far() {
-            std::fill_n(dark_below, most, grid_heights::nothing);
-            std::fill_n(lit_above, most, grid_heights::nothing);
+            std::fill_n(dark_below, max_strips, grid_heights::nothing);
+            std::fill_n(lit_above, max_strips, grid_heights::nothing);
         }
     };
 
-    /// The heights of a column from a row on, copied where they end.
+    /// The heights of a column from a row on; copied and padded where they reach past either end of the column.
     const float* heights_from(int x, int row, float* copy) const {
         const bool exists = x < grid.columns;
         if (exists && row >= -grid_heights::around && row + room <= grid.rows + grid_heights::around)
@@ -172,12 +172,13 @@ class horizon_bounds {
         bounds_ = insonify::detail::uninitialized_array<float>(
             2 * static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(strips_),
             insonify::detail::memory_of(ex));
-        bulk_ranges(ex, static_cast<std::size_t>(strips_), horizon_kernel::most, [&](std::size_t from, std::size_t to) {
-            insonify::detail::dispatch(
-                horizon_kernel{grid_, heights_, first_strip_ + static_cast<int>(from), static_cast<int>(to - from),
-                               strips_, static_cast<float>(margin_), bounds_.data() + from},
-                level);
-        });
+        bulk_ranges(
+            ex, static_cast<std::size_t>(strips_), horizon_kernel::max_strips, [&](std::size_t from, std::size_t to) {
+                insonify::detail::dispatch(
+                    horizon_kernel{grid_, heights_, first_strip_ + static_cast<int>(from), static_cast<int>(to - from),
+                                   strips_, static_cast<float>(margin_), bounds_.data() + from},
+                    level);
+            });
     }
 
     /// Decides N points.
@@ -204,15 +205,15 @@ class horizon_bounds {
         gather<N>(dark, [&](int k) { return at(k, dark_below(0)); });
         gather<N>(lit, [&](int k) { return at(k, lit_above(0)); });
         const bits is_dark = exists & bits(u < dark - margin_), is_lit = exists & bits(u > lit + margin_);
-        answer = is_lit ? bits{} + static_cast<std::int64_t>(known::lit)
-                        : bits{} + static_cast<std::int64_t>(known::nothing);
-        answer = is_dark ? bits{} + static_cast<std::int64_t>(known::dark) : answer;
+        answer = is_lit ? bits{} + static_cast<std::int64_t>(decision::lit)
+                        : bits{} + static_cast<std::int64_t>(decision::undecided);
+        answer = is_dark ? bits{} + static_cast<std::int64_t>(decision::dark) : answer;
     }
-    /// The same of one point.
-    known at(const glm::dvec3& p) const {
+    /// The same for one point.
+    decision at(const glm::dvec3& p) const {
         std::int64_t answer;
         decide<1>(answer, {p.x, p.y, p.z});
-        return static_cast<known>(answer);
+        return static_cast<decision>(answer);
     }
 
     const lit_grid& grid() const { return grid_; }

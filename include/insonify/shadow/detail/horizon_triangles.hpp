@@ -53,7 +53,7 @@ class ray_feet {
 /// Decides all triangles of one grid, seen by one camera.
 class horizon_triangles {
   public:
-    /// @param m    the mesh, of which `horizon` is
+    /// @param m    the mesh that `horizon` was computed for
     /// @param eye  the camera, in the mesh's frame
     horizon_triangles(const mesh_view& m, const horizon_bounds& horizon, const glm::dvec3& travel,
                       const glm::dvec3& eye)
@@ -68,7 +68,8 @@ class horizon_triangles {
         const double sine = -travel.z / numeric::square_root(numeric::dot(travel, travel));
         constexpr double grazed = 0x1p-20;  // a triangle closer to the light's direction is left to points
         rise_ = horizon.margin() + grazed * steepest / sine;
-        // The first triangle of each cell leaves one corner out; of the two here, `lower` is opposite another.
+        // `lower` has its right angle at `apex` and leaves out the opposite corner. It is the first triangle of a cell
+        // if the mesh's first triangle leaves out that corner too.
         const std::ptrdiff_t corner = grid_.corner(0, 0);
         const std::ptrdiff_t apex = grid_.first + (grid_.is_rising ? grid_.along : 0) - corner;
         const glm::uvec3& t = m.triangles[0];
@@ -78,7 +79,7 @@ class horizon_triangles {
     }
 
     /// Writes the results of some columns of cells, by triangle.
-    void find(int first_column, int last_column, known* into, isa level) const {
+    void find(int first_column, int last_column, decision* into, isa level) const {
         for (int left = first_column; left < last_column; left += wide)
             for (int bottom = 0; bottom < grid_.rows - 1; bottom += tall) {
                 answers found;
@@ -92,24 +93,24 @@ class horizon_triangles {
     /// a rectangle of the plane z = 0.
     /// @param lower, upper  corners of the rectangle, in the grid's steps
     void forget(const glm::dvec2& lower, const glm::dvec2& upper, int first_column, int last_column,
-                known* into) const {
+                decision* into) const {
         // These columns and, in each, these rows hold all points of such rays within the relief.
         const double least = horizon_.heights().least, greatest = horizon_.heights().greatest;
         const double beside = 0x1p-8 + horizon_.margin();  // covers rounding
-        const auto held = [](double at, int first, int last) {
+        const auto clamped = [](double at, int first, int last) {
             return static_cast<int>((std::min)((std::max)(at, static_cast<double>(first)), static_cast<double>(last)));
         };
-        const int left = held(lower.x - grid_.drop * greatest - beside - 1, first_column, last_column),
-                  right = held(upper.x - grid_.drop * least + beside + 1, first_column, last_column);
+        const int left = clamped(lower.x - grid_.drop * greatest - beside - 1, first_column, last_column),
+                  right = clamped(upper.x - grid_.drop * least + beside + 1, first_column, last_column);
         for (int x = left; x < right; ++x) {
-            const int bottom = held(lower.y - grid_.slope * (upper.x - x) - beside - 2, 0, grid_.rows - 1),
-                      top = held(upper.y - grid_.slope * (lower.x - x - 1) + beside + 2, 0, grid_.rows - 1);
+            const int bottom = clamped(lower.y - grid_.slope * (upper.x - x) - beside - 2, 0, grid_.rows - 1),
+                      top = clamped(upper.y - grid_.slope * (lower.x - x - 1) + beside + 2, 0, grid_.rows - 1);
             const float *const here = horizon_.heights().column(x), *const ahead = horizon_.heights().column(x + 1);
             for (int y = bottom; y < top; ++y) {
                 const auto low = static_cast<double>((std::min)({here[y], here[y + 1], ahead[y], ahead[y + 1]})),
                            high = static_cast<double>((std::max)({here[y], here[y + 1], ahead[y], ahead[y + 1]}));
                 if (high < lower.x - beside || low > upper.x + beside) continue;
-                into[grid_.first_triangle(x, y)] = into[grid_.first_triangle(x, y) + 1] = known::nothing;
+                into[grid_.first_triangle(x, y)] = into[grid_.first_triangle(x, y) + 1] = decision::undecided;
             }
         }
     }
@@ -125,13 +126,13 @@ class horizon_triangles {
     };
 
     /// The results of a block in the order of the mesh.
-    void write(const answers& found, int left, int bottom, int right, int top, known* into) const {
+    void write(const answers& found, int left, int bottom, int right, int top, decision* into) const {
         for (int y = bottom; y < top; ++y)
             for (int x = left; x < right; ++x) {
                 const std::int32_t both = found.of[x - left][y - bottom];
-                known* const cell = into + grid_.first_triangle(x, y);
-                cell[0] = static_cast<known>(both & 0xFF);
-                cell[1] = static_cast<known>(both >> 8);
+                decision* const cell = into + grid_.first_triangle(x, y);
+                cell[0] = static_cast<decision>(both & 0xFF);
+                cell[1] = static_cast<decision>(both >> 8);
             }
     }
 
@@ -221,9 +222,9 @@ class horizon_triangles {
             const ints is_facing = ints(rise > enough), is_averted = ints(rise < 0.0f - enough);
             const ints is_dark = (is_above & is_averted) | ((is_above | is_facing) & ints(highest < dark_below));
             const ints is_lit = is_above & is_facing & ints(lowest > lit_above);
-            answer = is_lit ? ints{} + static_cast<std::int32_t>(known::lit)
-                            : ints{} + static_cast<std::int32_t>(known::nothing);
-            answer = is_dark ? ints{} + static_cast<std::int32_t>(known::dark) : answer;
+            answer = is_lit ? ints{} + static_cast<std::int32_t>(decision::lit)
+                            : ints{} + static_cast<std::int32_t>(decision::undecided);
+            answer = is_dark ? ints{} + static_cast<std::int32_t>(decision::dark) : answer;
         }
     };
 
@@ -231,7 +232,7 @@ class horizon_triangles {
     const lit_grid& grid_;
     glm::dvec2 eye_{0};  ///< in the grid's steps
     double eye_u_ = 0;
-    double rise_ = 0;  ///< of u along the light, a column, above which a triangle faces it
+    double rise_ = 0;  ///< slope of u along the light, per column, above which a triangle faces it
     bool lower_is_first_ = true;
 };
 

@@ -98,12 +98,12 @@ class horizon_walk {
     /// Whether the surface blocks the ray of a point on it, where it faces the light.
     /// @param decide  decide(triangle): test of a triangle in doubles; false for the triangle of the point
     template <class Decide>
-    bool leads_from_surface(const Decide& decide) const {
+    bool is_blocked_from_surface(const Decide& decide) const {
         return walk(true, decide);
     }
     /// The same for any point.
     template <class Decide>
-    bool leads_from_anywhere(const Decide& decide) const {
+    bool is_blocked_from_anywhere(const Decide& decide) const {
         return walk(lies_above(), decide);
     }
 
@@ -117,7 +117,7 @@ class horizon_walk {
     };
 
     double row_at(double column) const { return w_ + grid_.slope * column; }
-    int held_row(double y) const {
+    int clamped_row(double y) const {
         return static_cast<int>((std::min)((std::max)(y, 0.0), static_cast<double>(grid_.rows - 2)));
     }
 
@@ -127,7 +127,7 @@ class horizon_walk {
         if (!(x_ >= beside_ && x_ <= grid_.columns - 1 - beside_ && y >= beside_ && y <= grid_.rows - 1 - beside_))
             return false;
         for (const double x : {x_ - beside_, x_ + beside_})
-            for (int row = held_row(y - beside_); row <= held_row(y + beside_); ++row)
+            for (int row = clamped_row(y - beside_); row <= clamped_row(y + beside_); ++row)
                 if (!(highest(static_cast<int>(x), row, row) < u_ - horizon_.margin())) return false;
         return true;
     }
@@ -152,20 +152,20 @@ class horizon_walk {
             const double low = row_at(column), high = low + grid_.slope;
             if (high < -beside_ || column + 1 + grid_.drop * greatest < doubt) return false;
             if (!is_first && is_above) {
-                const known rest = known_before(column);
-                if (rest != known::nothing) return rest == known::dark;
+                const decision rest = decide_before(column);
+                if (rest != decision::undecided) return rest == decision::dark;
             }
             if (!is_first && column % block_heights::side == block_heights::side - 1) {
                 const int before = column - (block_heights::side - 1);
                 const float highest_before = blocks_.highest(
-                    before / block_heights::side, held_row(row_at(before) - beside_), held_row(high + beside_));
+                    before / block_heights::side, clamped_row(row_at(before) - beside_), clamped_row(high + beside_));
                 if (static_cast<double>(highest_before) < doubt) {
                     column = before;
                     continue;
                 }
             }
             if (low > grid_.rows - 1 + beside_) continue;
-            const int first_row = held_row(low - beside_), last_row = held_row(high + beside_);
+            const int first_row = clamped_row(low - beside_), last_row = clamped_row(high + beside_);
             if (highest(column, first_row, last_row) < doubt) continue;
             const double limit = is_first && is_above ? x_ - column : 2;
             const crossing crossed = cross(column, limit);
@@ -182,18 +182,18 @@ class horizon_walk {
     }
 
     /// Decides by the bounds of a column, once the ray has been followed down to it.
-    known known_before(int column) const {
+    decision decide_before(int column) const {
         const int strip = static_cast<int>(w_ - horizon_.first_strip());
-        if (!horizon_.has_strip(strip)) return known::nothing;
+        if (!horizon_.has_strip(strip)) return decision::undecided;
         const horizon_bound b = horizon_.bound(column, strip);
-        if (u_ < static_cast<double>(b.dark_below) - horizon_.margin()) return known::dark;
-        return u_ > static_cast<double>(b.lit_above) + horizon_.margin() ? known::lit : known::nothing;
+        if (u_ < static_cast<double>(b.dark_below) - horizon_.margin()) return decision::dark;
+        return u_ > static_cast<double>(b.lit_above) + horizon_.margin() ? decision::lit : decision::undecided;
     }
 
     /// @param limit  position of the point, in columns from this one
     crossing cross(int column, double limit) const {
         const double slope = grid_.slope, low = row_at(column), high = low + slope;
-        const int row = held_row(low);
+        const int row = clamped_row(low);
         const float *const here = horizon_.heights().column(column) + row, *const ahead =
                                                                                horizon_.heights().column(column + 1) +
                                                                                row;
@@ -239,7 +239,7 @@ class horizon_walk {
     const block_heights& blocks_;
     const lit_grid& grid_;
     double x_, w_, u_;
-    double beside_;  ///< columns or rows by which a vertex may lie beside its place on the lattice, and a little more
+    double beside_;  ///< bound of a vertex's distance from its lattice point, in columns or rows, with a margin
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS

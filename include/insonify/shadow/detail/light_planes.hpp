@@ -1,4 +1,4 @@
-// The planes over which a light's rays stand upright, and casters and points as seen there.
+// The planes onto which casters and points are projected along a light's rays.
 //
 // Parallel light has one plane, the datum in the light's sheared frame (light.hpp). Light from a point has six, the
 // sides of a cube around it, each seen in perspective. On a plane every ray is one point (u, v), triangles stay
@@ -40,7 +40,7 @@ class light_plane {
 
     /// (u, v, height) of a point; of a near light before the division, (u d, v d, d) with the depth d.
     glm::dvec3 operator()(const glm::dvec3& p) const { return direction(p - origin_); }
-    /// The same of a difference of points.
+    /// The same for a difference of points.
     glm::dvec3 direction(const glm::dvec3& d) const {
         return {numeric::dot(rows_[0], d), numeric::dot(rows_[1], d), numeric::dot(rows_[2], d)};
     }

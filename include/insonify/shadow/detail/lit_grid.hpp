@@ -1,4 +1,5 @@
-// A regular grid turned so that parallel light travels along its columns, and its heights along the light's rays.
+// A regular grid re-indexed so that parallel light crosses its columns in ascending order, and its heights along the
+// light's rays.
 //
 // In grid steps, all points of a ray have the same u = X + drop z, the X at which the ray meets z = 0.
 #pragma once

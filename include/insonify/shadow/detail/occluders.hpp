@@ -1,4 +1,4 @@
-// Casters as one plane of a light sees them: vertices in (u, v, height), and for each tile of the plane the triangles
+// Casters projected onto one plane of a light: vertices in (u, v, height), and for each tile of the plane the triangles
 // that touch it.
 #pragma once
 
@@ -155,7 +155,7 @@ struct tile_assembly_kernel {
         unroll<2>([&](int axis) INSONIFY_INLINE_LAMBDA {
             floats low, high;
             t.range(low, high, axis);
-            // A margin of a tile covers rounding. NaN goes into all tiles.
+            // The margin covers rounding. Triangles with a NaN bound go into all tiles.
             const auto scale = static_cast<float>(1 / tile[axis]);
             const auto last_cell = static_cast<float>(axis == 0 ? tiles.columns - 1 : tiles.rows - 1);
             const floats margin =
@@ -219,7 +219,7 @@ class plane_caster {
     }
 
     std::span<const insonify::detail::triangle_run> bin(std::size_t tile) const { return bins_[tile]; }
-    /// A triangle that may come soon.
+    /// Prefetches the corners of a triangle that may be tested soon.
     INSONIFY_INLINE void prefetch(std::uint32_t triangle) const {
         if (triangle >= triangles_.size()) return;
         for (int i = 0; i < 3; ++i) insonify::detail::prefetch(&corner(triangle, i));

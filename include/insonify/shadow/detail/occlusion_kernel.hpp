@@ -19,8 +19,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
-/// Marks the receivers of a tile that a caster blocks and that no caster before it does.
-/// @param Decide  decide(triangle, i): whether the triangle blocks receiver i, in doubles
+/// Marks the receivers of a tile that a caster blocks and no earlier caster has blocked.
+/// @tparam Decide  decide(triangle, i): whether the triangle blocks receiver i, in doubles
 template <class Decide>
 struct occlusion_kernel {
     const plane_caster& caster;
@@ -28,7 +28,7 @@ struct occlusion_kernel {
     std::uint32_t number;  ///< of the caster
     skip may_skip;
     bool is_turned;  ///< triangles that face the light are clockwise
-    float error;     ///< of coordinates on the plane, beside what rounding to float adds
+    float error;     ///< of coordinates on the plane, before they are rounded to float
     receiver_cells& receivers;
     const Decide& decide;
 
@@ -185,11 +185,11 @@ struct occlusion_kernel {
                 skipped |= ints(lit_mesh == static_cast<std::int32_t>(number));
                 if (skips == skip::facing) skipped |= ~is_own;
             }
-            const ints asked = open & ~skipped;
+            const ints tested = open & ~skipped;
             const ints certain =
-                asked & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) & ints(above < 0.0f - doubt);
+                tested & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) & ints(above < 0.0f - doubt);
             store(casters + i, ints(certain ? ints{} + static_cast<std::int32_t>(number) : blocked));
-            for (unsigned left = movemask<N>(ints(asked & ~certain)); left != 0; left &= left - 1) {
+            for (unsigned left = movemask<N>(ints(tested & ~certain)); left != 0; left &= left - 1) {
                 const std::size_t at = i + static_cast<std::size_t>(std::countr_zero(left));
                 if (decide(id, at)) casters[at] = static_cast<std::int32_t>(number);
             }

@@ -19,7 +19,7 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 
 class points_by_tile {
   public:
-    /// Sorts points, and sets the results of all to lit by `into`: those without a caster over their tile stay so.
+    /// Sorts points by tile and sets all results in `into` to lit, which is final where no caster touches the tile.
     /// @param planes  not empty; outlives this
     template <executor E>
     points_by_tile(const tiled_planes& planes, std::span<const points> at, std::span<const results> into, E& ex)

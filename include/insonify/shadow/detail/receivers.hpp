@@ -15,7 +15,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
-/// The place of a point in several batches.
+/// Batch of a point and its index in the batch, packed into 32 bits.
 class batch_index {
   public:
     batch_index() = default;
@@ -28,14 +28,14 @@ class batch_index {
     std::uint32_t value_;
 };
 
-/// A point on the plane, from the lower corner of the tiles, on its way into a tile.
+/// A point on the plane, relative to the lower corner of the tiles, before it is sorted into a cell.
 struct receiver {
     float u, v, height;
     batch_index place;
     std::uint32_t mesh, triangle;  ///< that it lies on
 };
 
-/// The lowest and the highest of some numbers of meshes.
+/// Range of mesh indices.
 struct mesh_range {
     std::uint32_t first = invalid_id, last = 0;
 
@@ -116,7 +116,7 @@ class receiver_cells {
     bool are_on_lit_side(std::uint32_t number) const { return averted_.empty() && lit_.is_only(number); }
     /// Whether some may lie where a caster faces away from the light.
     bool may_be_on_averted_side(std::uint32_t number) const { return averted_.contains(number); }
-    /// Receivers that are tested for the first casters alone take no more from now on.
+    /// Closes the open receivers that are tested against casters below this index only (points::casters).
     void close(std::uint32_t casters) {
         if (!is_limited_) return;
         for (std::size_t i = 0; i < size(); ++i)
@@ -136,12 +136,12 @@ class receiver_cells {
 
   private:
     static constexpr int widest = 128;          // rows
-    static constexpr std::size_t per_cell = 2;  ///< receivers, or more; fewer take longer to sort
+    static constexpr std::size_t per_cell = 2;  ///< largest mean number of receivers in two cells, up to widest rows
     static constexpr std::size_t padding = 16;
 
-    int column(float at) const { return hold((at - lower_.x) * scale_.x, columns_); }
-    int row(float at) const { return hold((at - lower_.y) * scale_.y, rows_); }
-    static int hold(float at, int count) {
+    int column(float at) const { return clamped((at - lower_.x) * scale_.x, columns_); }
+    int row(float at) const { return clamped((at - lower_.y) * scale_.y, rows_); }
+    static int clamped(float at, int count) {
         return static_cast<int>((std::min)((std::max)(0.0f, at), static_cast<float>(count - 1)));
     }
 

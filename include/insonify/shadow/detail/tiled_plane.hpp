@@ -66,8 +66,8 @@ struct tiled_plane {
     static int clamped(double at, int count) { return static_cast<int>((std::min)((std::max)(0.0, at), count - 1.0)); }
 };
 
-/// All planes of one light, with their tiles counted together: one across parallel light, or the sides of a cube around
-/// a near one, of which those that no point lies over have no casters and no tiles.
+/// All planes of one light, with their tiles numbered consecutively: one plane for parallel light, or the six sides of
+/// a cube around a point light. Sides that no point lies over have no casters and no tiles.
 class tiled_planes {
   public:
     explicit tiled_planes(const any_light& light) {

@@ -162,13 +162,13 @@ class overhead_painter {
 
     /// Decides whole triangles before they are drawn, lit or dark. The surfaces point to the results.
     template <class Occlusion, executor E>
-    std::vector<uninitialized_array<shadow::known>> settle_triangles(const Occlusion& occlusion, E& ex) {
-        std::vector<uninitialized_array<shadow::known>> known;
+    std::vector<uninitialized_array<shadow::decision>> settle_triangles(const Occlusion& occlusion, E& ex) {
+        std::vector<uninitialized_array<shadow::decision>> known;
         if constexpr (shadow::triangle_occlusion<Occlusion>)
             for (surface& s : surfaces_) {
                 // A mesh much finer than the picture has more triangles than points to test.
                 if (s.mesh.triangles.size() > 2 * out_.image.size()) continue;
-                known.push_back(occlusion.known_triangles(s.caster, view_.eye(), ex));
+                known.push_back(occlusion.decide_triangles(s.caster, view_.eye(), ex));
                 if (!known.back().empty()) s.known = known.back().data();
             }
         return known;

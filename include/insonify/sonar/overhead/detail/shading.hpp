@@ -68,15 +68,15 @@ struct surface_vertex_shader {
 struct surface {
     mesh_view mesh;
     affine to_rig;
-    std::uint32_t first_id = 0;            ///< of its triangles in the visibility buffer
-    std::uint32_t caster = 0;              ///< index into the casters
-    std::uint16_t instance = 0;            ///< as in labels::instance
-    std::uint8_t seabed = 0;               ///< as in labels::seabed, if there are no types
-    material whole;                        ///< if there are no types
-    const seabed::type* types = nullptr;   ///< by vertex, of a bottom of several types
-    const material* materials = nullptr;   ///< by type
-    std::uint16_t self_shadow_label = 0;   ///< label in labels::shadow where the surface shades itself
-    const shadow::known* known = nullptr;  ///< lit, dark or undecided, by triangle; null if none is decided
+    std::uint32_t first_id = 0;               ///< of its triangles in the visibility buffer
+    std::uint32_t caster = 0;                 ///< index into the casters
+    std::uint16_t instance = 0;               ///< as in labels::instance
+    std::uint8_t seabed = 0;                  ///< as in labels::seabed, if there are no types
+    material whole;                           ///< if there are no types
+    const seabed::type* types = nullptr;      ///< by vertex, of a bottom of several types
+    const material* materials = nullptr;      ///< by type
+    std::uint16_t self_shadow_label = 0;      ///< label in labels::shadow where the surface shades itself
+    const shadow::decision* known = nullptr;  ///< lit, dark or undecided, by triangle; null if none is decided
 };
 
 /// The images that shading writes; null pointers are optional.
@@ -176,10 +176,10 @@ class surface_shader {
         if (object_.known != nullptr) {
             ints known;
             gather<N>(known, [&](int k) { return static_cast<std::int32_t>(object_.known[f.triangles[k]]); });
-            const ints is_lit = ints(known == static_cast<std::int32_t>(shadow::known::lit));
-            is_dark = ints(known == static_cast<std::int32_t>(shadow::known::dark));
+            const ints is_lit = ints(known == static_cast<std::int32_t>(shadow::decision::lit));
+            is_dark = ints(known == static_cast<std::int32_t>(shadow::decision::dark));
             value = is_lit ? all : value;
-            undecided = undecided & ints(known == static_cast<std::int32_t>(shadow::known::nothing));
+            undecided = undecided & ints(known == static_cast<std::int32_t>(shadow::decision::undecided));
         }
         f.store(into_.picture, value);
         if (into_.shadow != nullptr) {
