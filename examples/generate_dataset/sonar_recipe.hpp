@@ -78,7 +78,8 @@ struct found_objects {
     double inspected = 0.15;             ///< share that a line runs along
     double line_step = in::numeric::pi;  ///< angle between the headings that such lines choose from, radians
     double on_side = 0;                  ///< share that lies on its side
-    double proud = 0.3, deepest = 0.55;  ///< share that isn't buried; burial of the others, at most
+    double proud = 0.5, deepest = 0.3;   ///< share that isn't buried; burial of the others, at most
+    double list_unburied = 1.0 / 6;      ///< list of what isn't buried, over that of what is buried deepest
     double brightest = 20;               ///< reflectivity, at most
     double unscoured = 0.7;              ///< share without scour
     double debris = 0.55;                ///< share with debris about it
@@ -90,8 +91,14 @@ inline found_objects found_objects_of(const std::string& kind) {
     // Hulls sink in. What they have gathered and scoured is of other sediment than the bottom, and their chips are
     // large.
     if (kind == "ship")
-        return {
-            .on_side = 0.15, .proud = 0.1, .brightest = 10, .debris = 0.85, .growth = {1.5, 5}, .greatest_drift = 4};
+        return {.on_side = 0.15,
+                .proud = 0.1,
+                .deepest = 0.55,
+                .list_unburied = 1,
+                .brightest = 10,
+                .debris = 0.85,
+                .growth = {1.5, 5},
+                .greatest_drift = 4};
     // Aeroplanes are light and flat: what is buried isn't found. Lines run along the fuselage or along the wings.
     // Scour of their outline is too small to tell from wreckage.
     if (kind == "plane")
@@ -99,8 +106,10 @@ inline found_objects found_objects_of(const std::string& kind) {
                 .line_step = in::numeric::pi / 2,
                 .proud = 0.9,
                 .deepest = 0.4,
+                .list_unburied = 1,
                 .unscoured = 0.95,
                 .greatest_drift = 1.2};
+    // Others stand on the bottom, upright, or have sunk in a little and tilted.
     return {};
 }
 
@@ -130,10 +139,11 @@ inline placed_object sample_object(sampler& s, const std::string& prefix, const 
     o.yaw = s.derived(name("yaw_rad"), track + heading);
     o.pitch = s.uniform(name("pitch_rad"), -0.06, 0.06);
     const bool on_side = s.chance(name("on_side"), found.on_side);
-    o.roll = s.derived(name("roll_rad"),
-                       on_side ? s.uniform(name("list_rad"), 0.9, 1.8) : s.uniform(name("list_rad"), -0.3, 0.3));
+    const double list = on_side ? s.uniform(name("list_rad"), 0.9, 1.8) : s.uniform(name("list_rad"), -0.3, 0.3);
     const bool is_settled = kind == "ship" && o.form.damage > 0.5;
     o.burial = s.uniform_or_0(name("burial"), found.proud, 0.02, is_settled ? 0.8 : found.deepest);
+    const double sunk = (std::min)(o.burial / found.deepest, 1.0);
+    o.roll = s.derived(name("roll_rad"), list * (found.list_unburied + (1 - found.list_unburied) * sunk));
     o.reflectivity = s.logarithmic(name("reflectivity"), 1, found.brightest);
     o.across = s.uniform(name("across"), place.across.low, place.across.high);
     o.along = s.uniform(name("along"), place.along.low, place.along.high);

@@ -374,6 +374,16 @@ class Generator(unittest.TestCase):
             off = (float(row["t1_yaw_rad"]) - float(row["rig_yaw_rad"]) - math.pi / 2) / step
             self.assertLess(abs(off - round(off)) * step, 0.301)
 
+    def test_other_objects_stand_upright_unless_they_have_sunk_in(self):
+        run("--recipe", "sonar", "--out", self.folder / "a", "--pixels", 16, "--visible-share", 0, "--seed", 4,
+            "--per-class", "cylinder=40,cube=40,crate=40")
+        poses = [(float(row["t1_burial"]), abs(float(row["t1_roll_rad"]))) for row in self.read_manifest(self.folder / "a")]
+        upright = [roll for burial, roll in poses if burial == 0]
+        self.assertTrue(40 < len(upright) < 80, len(upright))
+        self.assertLessEqual(max(upright), 0.05)
+        self.assertLessEqual(max(burial for burial, _ in poses), 0.3)
+        self.assertGreater(max(roll for _, roll in poses), 0.15)
+
     def test_gain_slopes_up_and_down_by_up_to_8_decibels(self):
         run("--recipe", "sonar", "--out", self.folder / "a", "--pixels", 16, "--visible-share", 0, "--count", 120)
         slopes = [float(row["gain_slope_db"]) for row in self.read_manifest(self.folder / "a")]
