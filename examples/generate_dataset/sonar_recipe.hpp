@@ -75,14 +75,15 @@ namespace detail {
 
 /// What objects of a kind look like where they are found, and what lies around them.
 struct found_objects {
+    range fill{0.1, 0.4};                ///< extent over the chip's
     double inspected = 0.15;             ///< share that a line runs along
     double line_step = in::numeric::pi;  ///< angle between the headings that such lines choose from, radians
     double on_side = 0;                  ///< share that lies on its side
     double proud = 0.5, deepest = 0.3;   ///< share that isn't buried; burial of the others, at most
     double list_unburied = 1.0 / 6;      ///< list of what isn't buried, over that of what is buried deepest
-    double brightest = 20;               ///< reflectivity, at most
+    range reflectivity{0.5, 10};         ///< over the bottom's
     double unscoured = 0.7;              ///< share without scour
-    double debris = 0.55;                ///< share with debris about it
+    double debris = 0.1;                 ///< share with debris about it
     range growth{0.5, 3.5};              ///< decibels
     double greatest_drift = 2.5;         ///< of the bottom's tone, decibels
 };
@@ -91,25 +92,31 @@ inline found_objects found_objects_of(const std::string& kind) {
     // Hulls sink in. What they have gathered and scoured is of other sediment than the bottom, and their chips are
     // large.
     if (kind == "ship")
-        return {.on_side = 0.15,
+        return {.fill = {0.7, 1.35},
+                .on_side = 0.15,
                 .proud = 0.1,
                 .deepest = 0.55,
                 .list_unburied = 1,
-                .brightest = 10,
+                .reflectivity = {1, 10},
                 .debris = 0.85,
                 .growth = {1.5, 5},
                 .greatest_drift = 4};
     // Aeroplanes are light and flat: what is buried isn't found. Lines run along the fuselage or along the wings.
     // Scour of their outline is too small to tell from wreckage.
     if (kind == "plane")
-        return {.inspected = 0.6,
+        return {.fill = {0.7, 1.35},
+                .inspected = 0.6,
                 .line_step = in::numeric::pi / 2,
                 .proud = 0.9,
                 .deepest = 0.4,
                 .list_unburied = 1,
+                .reflectivity = {1, 20},
                 .unscoured = 0.95,
+                .debris = 0.55,
                 .greatest_drift = 1.2};
-    // Others stand on the bottom, upright, or have sunk in a little and tilted.
+    if (kind == "pipe") return {.fill = {0.4, 1.2}};
+    // Chips of small objects show their shadows, at the resolution of a sonar. They stand on the bottom, upright, or
+    // have sunk in a little and tilted. Wood and rubber echo less than gravel.
     return {};
 }
 
@@ -144,7 +151,7 @@ inline placed_object sample_object(sampler& s, const std::string& prefix, const 
     o.burial = s.uniform_or_0(name("burial"), found.proud, 0.02, is_settled ? 0.8 : found.deepest);
     const double sunk = (std::min)(o.burial / found.deepest, 1.0);
     o.roll = s.derived(name("roll_rad"), list * (found.list_unburied + (1 - found.list_unburied) * sunk));
-    o.reflectivity = s.logarithmic(name("reflectivity"), 1, found.brightest);
+    o.reflectivity = s.logarithmic(name("reflectivity"), found.reflectivity.low, found.reflectivity.high);
     o.across = s.uniform(name("across"), place.across.low, place.across.high);
     o.along = s.uniform(name("along"), place.along.low, place.along.high);
     o.scour = s.uniform_or_0(name("scour"), found.unscoured, 0.02, 0.15);
@@ -332,7 +339,8 @@ inline sonar_plan sample_image(const options& o, sampler& s, const view_of_targe
 
     // The first target sizes the chip; that of an empty image is sampled.
     const double share = s.chance("is_small", 0.06) ? 0.4 : 1.0;
-    const double fill = share * s.uniform("fill", 0.7, 1.35), bare = s.logarithmic("bare_chip_m", 6, 160);
+    const range filled = detail::found_objects_of(p.class_name).fill;
+    const double fill = share * s.uniform("fill", filled.low, filled.high), bare = s.logarithmic("bare_chip_m", 6, 160);
     // Crops follow the target's outline: the chip is longer along a slender target.
     const double closeness = s.uniform("crop_share", 0, 1),
                  slender = empty ? 1 : detail::slenderness(shapes.front(), p.targets.front().yaw - p.rig_yaw);

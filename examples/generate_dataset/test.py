@@ -384,6 +384,15 @@ class Generator(unittest.TestCase):
         self.assertLessEqual(max(burial for burial, _ in poses), 0.3)
         self.assertGreater(max(roll for _, roll in poses), 0.15)
 
+    def test_chips_of_small_objects_have_room_for_shadows(self):
+        run("--recipe", "sonar", "--out", self.folder / "a", "--pixels", 16, "--visible-share", 0, "--per-class",
+            "cylinder=20,tyre=20,ship=20")
+        for row in self.read_manifest(self.folder / "a"):
+            fill = float(row["fill"])
+            low, high = (0.7, 1.35) if row["class"] == "ship" else (0.1, 0.4)
+            self.assertTrue(low <= fill <= high, (row["class"], fill))
+            self.assertGreater(float(row["chip_m"]), float(row["t1_length_m"]) * (0.3 if row["class"] == "ship" else 1.2))
+
     def test_gain_slopes_up_and_down_by_up_to_8_decibels(self):
         run("--recipe", "sonar", "--out", self.folder / "a", "--pixels", 16, "--visible-share", 0, "--count", 120)
         slopes = [float(row["gain_slope_db"]) for row in self.read_manifest(self.folder / "a")]
