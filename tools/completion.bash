@@ -41,7 +41,7 @@ _insonify_tool() {
         test) options+=" --ci --full" ;;
         merge) options+=" --preview" ;;
         bench) options+=" --install --workloads --sizes --only --threads --frames --processor-time --json --svg --dump" ;;
-        recognize) options+=" --real --counts --recipes --try --sizes --synthetic-test --seeds --threads" ;;
+        recognize) options+=" --real --counts --recipes --try --sizes --second-simulator --synthetic-test --seeds --threads" ;;
         slurm) options+=" --tasks" ;;
         amalgamate | reference) options+=" --check" ;;
         compile_cost) options+=" --check --record" ;;

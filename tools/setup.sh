@@ -31,6 +31,8 @@ parallel      command:parallel                        parallel              para
 deflate       header:libdeflate.h                     libdeflate-dev        libdeflate-devel    libdeflate
 opencv        header:opencv4/opencv2/ml.hpp|opencv2/ml.hpp  libopencv-dev   opencv-devel        opencv
 pillow        python:PIL                              python3-pil           python3-pillow      pillow
+skimage       python:skimage                          python3-skimage       python3-scikit-image  scikit-image
+sklearn       python:sklearn                          python3-sklearn       python3-scikit-learn  scikit-learn
 chromium      command:chromium|chromium-browser|google-chrome  chromium     chromium            --cask chromium
 clang         command:clang++                         clang                 clang               llvm
 fuzzer        clang:-fsanitize=fuzzer                 libclang-rt-dev       compiler-rt         llvm
