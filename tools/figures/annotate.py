@@ -97,7 +97,7 @@ REAL_RANGE, REAL_COLUMN, REAL_ROW = 29.98, 29.98 / 1024, 0.067  # metres: to a s
 # The chips of README.md's picture: generated ones of the guide's data set `boats`, and parts of the recorded line (column and
 # row of the middle, metres).
 CHIPS = ["ship/000000/000000002", ("ship", 1390, 270, 15), "ship/000000/000000001", "empty/000000/000000014",
-         ("bottom", 450, 130, 10), "plane/000000/000000009", "plane/000000/000000007", "tyre/000000/000000010"]
+         ("bottom", 450, 130, 10), "plane/000000/000000009", "plane/000000/000000007", "tyre/000000/000000011"]
 
 
 def copper(gray):
