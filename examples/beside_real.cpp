@@ -91,9 +91,10 @@ in::image<float> line_of(const in::scene& scene, in::side_scan rig, in::side sid
     // Gains level the vertical beam's pattern out to 45 degrees; below the sonar the beam is weak, and so is the echo.
     const in::sonar_equation equation{in::pulse{2 * sonar.range_resolution}, in::horizontal_beam{sonar.beam},
                                       in::vertical_beam{.width = sonar.vertical_beam}, in::level_gain{}};
-    auto heard = in::record(scene, tow_of(rig), rig, in::record_options<>{}.with(law).with(equation));
+    const std::vector<in::ping> tow = tow_of(rig);
+    auto heard = in::record(scene, tow, rig, in::record_options<>{}.with(law).with(equation));
     heard = in::with_tone(
-        std::move(heard), rig,
+        std::move(heard), tow, rig,
         {.drift = 2.6f, .drift_length = 9, .streaks = 0.6f, .streak_width = 1.2f, .streak_length = 25, .seed = 2});
     heard.image =
         std::move(heard.image) |

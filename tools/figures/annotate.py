@@ -79,7 +79,7 @@ PICTURES = {
     "beside_real.png": Swath(30, levels=32, forward="down", above="above: rendered; below: recorded, CIDCO OpenSidescan (MIT)"),
     "shader.png": Plain("hull of 24 m, a line for every metre from the sonar"),
 }
-SHRUNK = {"cylinder.png": (512, 512), "beside_real.png": (1024, 467)}
+SHRUNK = {"cylinder.png": (512, 512), "line.png": (880, 280), "beside_real.png": (1024, 467)}
 IN_DOCS = {"cylinder.png", "swath.png", "beside_real.png"}  # the others belong to the guide
 
 

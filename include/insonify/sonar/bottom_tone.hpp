@@ -101,6 +101,35 @@ class tone_sampler {
     double scale_ = 0, threshold_ = 0;
 };
 
+/// Multiplies a recording's echoes of the seabed by a tone. `ping_at(number)` is the ping of that number.
+template <across_track Axis, class PingAt>
+void apply_tone(frame<labels>& r, const PingAt& ping_at, const side_scan_rig<Axis>& rig, const bottom_tone& tone,
+                executor_ref ex) {
+    require(r.image.width() == rig.bins, "rig.bins", rig.bins, "the recording's width");
+    const tone_sampler level(tone);
+    if (tone.is_none()) return;
+    const double first = static_cast<double>(rig.first_range), bin = rig.bin();
+    bulk_ranges(ex, static_cast<std::size_t>(r.image.height()), 16, [&](std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i < to; ++i) {
+            const int y = static_cast<int>(i);
+            const ping at = ping_at(r.rows.first + r.rows.step * y);
+            const ping_frame frame(at, rig.side);
+            const double altitude = at.position.z;
+            const auto row = r.image.row(y);
+            const auto types = r.labels.seabed.row(y);
+            for (std::size_t x = 0; x < row.size(); ++x) {
+                if (types[x] == labels::no_seabed) continue;
+                const double range = first + (static_cast<double>(x) + 0.5) * bin;
+                const double square = range * range - altitude * altitude;
+                const double ground = Axis == across_track::ground_range ? range
+                                      : square > 0                       ? numeric::square_root(square)
+                                                                         : 0.0;
+                row[x] *= static_cast<float>(from_decibels(level(frame.world(ground, 0))));
+            }
+        }
+    });
+}
+
 }  // namespace detail::inline INSONIFY_FLAGS
 
 inline namespace INSONIFY_FLAGS {
@@ -116,31 +145,31 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 /// Targets and the water column stay.
 ///
 /// @param r    a result of `render` with this rig, before noise and speckle
-/// @throws invalid_input for a rig or a parameter out of its range
+/// @throws invalid_input for a rig or a parameter out of its range, or a recording of another width
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
-    const detail::tone_sampler level(tone);
-    if (tone.is_none()) return r;
-    const ping_numbers numbers = r.rows;
-    const double altitude = static_cast<double>(rig.altitude), first = static_cast<double>(rig.first_range);
-    bulk_ranges(ex, static_cast<std::size_t>(r.image.height()), 16, [&](std::size_t from, std::size_t to) {
-        for (std::size_t i = from; i < to; ++i) {
-            const int y = static_cast<int>(i);
-            const ping_frame frame(ping_of(rig, static_cast<int>(numbers.first) + numbers.step * y), rig.side);
-            const auto row = r.image.row(y);
-            const auto types = r.labels.seabed.row(y);
-            for (std::size_t x = 0; x < row.size(); ++x) {
-                if (types[x] == labels::no_seabed) continue;
-                const double range = first + (static_cast<double>(x) + 0.5) * rig.bin();
-                const double square = range * range - altitude * altitude;
-                const double ground = Axis == across_track::ground_range ? range
-                                      : square > 0                       ? numeric::square_root(square)
-                                                                         : 0.0;
-                row[x] *= static_cast<float>(from_decibels(level(frame.world(ground, 0))));
-            }
-        }
-    });
+    const auto ping_at = [&](std::int64_t number) { return ping_of(rig, static_cast<int>(number)); };
+    detail::apply_tone(r, ping_at, rig, tone, executor_ref(ex));
+    return r;
+}
+
+/// Applies a tone to a recording of a track: levels are those at the positions on the datum abreast of each ping.
+///
+/// @param r      a result of `record` with this track and rig, before noise and speckle
+/// @param track  the pings, numbered from 0 as in `r.rows`
+/// @throws invalid_input for a rig or a parameter out of its range, a recording of another width, or one with more
+/// pings
+template <across_track Axis, executor_argument E = serial_executor>
+frame<labels> with_tone(frame<labels> r, std::span<const ping> track, const side_scan_rig<Axis>& rig,
+                        const bottom_tone& tone, E&& ex = {}) {
+    validate(rig);
+    const std::int64_t one_end = r.rows.first, other_end = one_end + std::int64_t{r.rows.step} * (r.image.height() - 1);
+    detail::require(r.image.height() == 0 || ((std::min)(one_end, other_end) >= 0 &&
+                                              (std::max)(one_end, other_end) < static_cast<std::int64_t>(track.size())),
+                    "track.size()", track.size(), "a ping for each row of the recording");
+    const auto ping_at = [&](std::int64_t number) { return track[static_cast<std::size_t>(number)]; };
+    detail::apply_tone(r, ping_at, rig, tone, executor_ref(ex));
     return r;
 }
 

@@ -269,6 +269,38 @@ TEST_CASE("A tone is fixed to the world: both sides of a track give a place the 
         }
 }
 
+TEST_CASE("A tone lies abreast of each ping of a track, below the sonar's own height") {
+    in::scene scene;
+    scene.seabed = in::seabed::flat{.surface = {.rms = 0}};
+    const in::bottom_tone tone{.drift = 5, .drift_length = 3};
+    const in::side_scan rig{
+        .altitude = 5, .ping_spacing = 0.5f, .pings = 20, .first_range = 8, .range = 18, .bins = 20};
+    const auto straight = in::render(scene, rig);
+    const auto as_rendered = in::with_tone(straight, rig, tone),
+               by_track = in::with_tone(straight, in::track_of(rig), rig, tone);
+    CHECK(std::equal(as_rendered.image.pixels().begin(), as_rendered.image.pixels().end(),
+                     by_track.image.pixels().begin()));
+
+    std::vector<in::ping> track;
+    for (int i = 0; i < 20; ++i) track.push_back({.position = {0.3 * i, 0.5 * i, 4 + 0.1 * i}, .yaw = 0.04 * i});
+    const auto clean = in::record(scene, track, rig);
+    const auto toned = in::with_tone(clean, track, rig, tone);
+    for (int y = 0; y < 20; ++y)
+        for (int x = 0; x < 20; ++x) {
+            const in::ping& ping = track[static_cast<std::size_t>(y)];
+            const double slant = 8 + 0.5 * (x + 0.5),
+                         ground = std::sqrt(slant * slant - ping.position.z * ping.position.z);
+            const glm::dvec2 at{ping.position.x + ground * std::cos(ping.yaw),
+                                ping.position.y + ground * std::sin(ping.yaw)};
+            CHECK(decibels(toned.image(x, y) / clean.image(x, y)) == Approx(in::level_of(tone, at)).margin(1e-3));
+        }
+    const auto flipped = in::with_tone(in::upside_down(clean), track, rig, tone);
+    CHECK(flipped.image(3, 19) == toned.image(3, 0));
+    track.pop_back();
+    CHECK_THROWS_AS(in::with_tone(clean, track, rig, tone), in::invalid_input);
+    CHECK_THROWS_AS(in::with_tone(in::both_sides(clean, clean), track, rig, tone), in::invalid_input);
+}
+
 TEST_CASE("with_tone() leaves the water column unchanged, does nothing when off, and is the same for any executor") {
     in::scene scene;
     const in::side_scan rig{.altitude = 5, .ping_spacing = 0.2f, .pings = 40, .range = 20, .bins = 80};
