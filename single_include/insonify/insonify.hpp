@@ -5926,7 +5926,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// The points p with lower <= p <= upper in each coordinate, in metres; by default none at all.
+/// The points p with lower <= p <= upper in each coordinate, in metres; empty by default.
 struct bounding_box {
     glm::dvec3 lower{std::numeric_limits<double>::infinity()};
     glm::dvec3 upper{-std::numeric_limits<double>::infinity()};
@@ -5936,7 +5936,7 @@ struct bounding_box {
     INSONIFY_MEMBER glm::dvec3 size() const { return empty() ? glm::dvec3(0) : upper - lower; }
     /// @pre the box is not empty
     INSONIFY_MEMBER glm::dvec3 centre() const { return 0.5 * (lower + upper); }
-    /// One of eight: bit k of `i` takes the upper end of axis k.
+    /// Corner `i` of eight: bit k selects the upper end along axis k.
     INSONIFY_MEMBER glm::dvec3 corner(int i) const {
         return {(i & 1) != 0 ? upper.x : lower.x, (i & 2) != 0 ? upper.y : lower.y, (i & 4) != 0 ? upper.z : lower.z};
     }
@@ -7864,7 +7864,7 @@ struct with_kind {
     height_range range() const requires(bounded_sampler<S>) { return heights_only.range(); }
 };
 
-/// @throws invalid_input for the range of a model that does not state its heights
+/// @throws invalid_input for a range with an infinite end, as of a model that does not state its heights
 inline void require_finite(const height_range& range) {
     require(range.empty() || numeric::is_finite(range.highest - range.lowest), "range() of the seabed", range.highest,
             "finite heights that it never leaves");
@@ -7899,7 +7899,7 @@ auto prepare(const M& m) {
         return detail::sampler_of(m);
 }
 
-/// The label of the whole seabed, if it has but one.
+/// The label of the whole seabed, if it has only one.
 template <model M>
 std::optional<type> only_type(const M& m) {
     if constexpr (requires { m.only_type(); })
@@ -17577,7 +17577,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A mesh as a caster, with what the camera's place proves.
+/// A mesh as a caster, and which of its triangles may be skipped for points that the camera sees.
 ///
 /// A ray from a point outside of a closed surface crosses it inwards as often as outwards on its way to the light, and
 /// inwards means through a triangle that faces away from the light: if anything blocks it, such a one does. What a
@@ -21793,9 +21793,9 @@ inline void require_extent(const survey_reader& in, const grid_soundings& s, dou
 
 inline namespace INSONIFY_FLAGS {
 
-/// Reads an Esri ASCII grid: ncols, nrows, xllcorner or xllcenter, yllcorner or yllcenter, cellsize, maybe
-/// nodata_value, then the heights row by row from the north. Vertices stand at the centres of its cells. Positions and
-/// cellsize are metres: project grids in degrees first, as to UTM.
+/// Reads an Esri ASCII grid: ncols, nrows, xllcorner or xllcenter, yllcorner or yllcenter, cellsize,
+/// optionally nodata_value, then the heights row by row from the north. Vertices stand at the centres of its cells.
+/// Positions and cellsize are metres: project grids in degrees first, for example to UTM.
 /// @param scale  metres up per unit of the file; -1 for depths in metres
 /// @param name   of the text, for errors
 /// @throws io_error for a text that isn't such a grid, saying which line and why
@@ -21820,8 +21820,8 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
 }
 
 /// Reads soundings, an `x y z` on each line, onto a grid: each vertex has the mean of the soundings that are nearest to
-/// it, or NaN if there is none. x and y are metres: project longitudes and latitudes first, as to UTM. Lines end with
-/// LF, CR LF or CR. Lines that do not begin with a number are skipped, and so is the rest of a line after z.
+/// it, or NaN if there is none. x and y are metres: project longitudes and latitudes first, for example to UTM. Lines
+/// end with LF, CR LF or CR. Lines that do not begin with a number are skipped, and so is the rest of a line after z.
 /// @param spacing  metres between vertices, > 0; vertices are multiples of it
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors
@@ -22354,7 +22354,7 @@ struct flatten {
 struct smooth {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 1;      ///< metres, > 0: with its edge
-    float length = 0.25f;  ///< metres, > 0; to eight bits, so that its multiples are exact
+    float length = 0.25f;  ///< metres, > 0; rounded to eight bits, so that its multiples are exact
 };
 
 /// A straight slope between two points, like a slipway.
@@ -25511,6 +25511,7 @@ image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill
 
 /// Joins a port and a starboard recording of one track, port to the left: range grows outwards from the middle, where
 /// the water column lies. The labels' bounding boxes and areas are those of both sides together.
+/// @throws invalid_input for recordings of different heights
 template <class Labels>
 frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboard) {
     frame<Labels> out;

@@ -18,7 +18,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// The points p with lower <= p <= upper in each coordinate, in metres; by default none at all.
+/// The points p with lower <= p <= upper in each coordinate, in metres; empty by default.
 struct bounding_box {
     glm::dvec3 lower{std::numeric_limits<double>::infinity()};
     glm::dvec3 upper{-std::numeric_limits<double>::infinity()};
@@ -28,7 +28,7 @@ struct bounding_box {
     INSONIFY_MEMBER glm::dvec3 size() const { return empty() ? glm::dvec3(0) : upper - lower; }
     /// @pre the box is not empty
     INSONIFY_MEMBER glm::dvec3 centre() const { return 0.5 * (lower + upper); }
-    /// One of eight: bit k of `i` takes the upper end of axis k.
+    /// Corner `i` of eight: bit k selects the upper end along axis k.
     INSONIFY_MEMBER glm::dvec3 corner(int i) const {
         return {(i & 1) != 0 ? upper.x : lower.x, (i & 2) != 0 ? upper.y : lower.y, (i & 4) != 0 ? upper.z : lower.z};
     }

@@ -142,9 +142,9 @@ inline void require_extent(const survey_reader& in, const grid_soundings& s, dou
 
 inline namespace INSONIFY_FLAGS {
 
-/// Reads an Esri ASCII grid: ncols, nrows, xllcorner or xllcenter, yllcorner or yllcenter, cellsize, maybe
-/// nodata_value, then the heights row by row from the north. Vertices stand at the centres of its cells. Positions and
-/// cellsize are metres: project grids in degrees first, as to UTM.
+/// Reads an Esri ASCII grid: ncols, nrows, xllcorner or xllcenter, yllcorner or yllcenter, cellsize,
+/// optionally nodata_value, then the heights row by row from the north. Vertices stand at the centres of its cells.
+/// Positions and cellsize are metres: project grids in degrees first, for example to UTM.
 /// @param scale  metres up per unit of the file; -1 for depths in metres
 /// @param name   of the text, for errors
 /// @throws io_error for a text that isn't such a grid, saying which line and why
@@ -169,8 +169,8 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
 }
 
 /// Reads soundings, an `x y z` on each line, onto a grid: each vertex has the mean of the soundings that are nearest to
-/// it, or NaN if there is none. x and y are metres: project longitudes and latitudes first, as to UTM. Lines end with
-/// LF, CR LF or CR. Lines that do not begin with a number are skipped, and so is the rest of a line after z.
+/// it, or NaN if there is none. x and y are metres: project longitudes and latitudes first, for example to UTM. Lines
+/// end with LF, CR LF or CR. Lines that do not begin with a number are skipped, and so is the rest of a line after z.
 /// @param spacing  metres between vertices, > 0; vertices are multiples of it
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors

@@ -29,7 +29,7 @@ struct flatten {
 struct smooth {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 1;      ///< metres, > 0: with its edge
-    float length = 0.25f;  ///< metres, > 0; to eight bits, so that its multiples are exact
+    float length = 0.25f;  ///< metres, > 0; rounded to eight bits, so that its multiples are exact
 };
 
 /// A straight slope between two points, like a slipway.

@@ -175,7 +175,7 @@ struct with_kind {
     height_range range() const requires(bounded_sampler<S>) { return heights_only.range(); }
 };
 
-/// @throws invalid_input for the range of a model that does not state its heights
+/// @throws invalid_input for a range with an infinite end, as of a model that does not state its heights
 inline void require_finite(const height_range& range) {
     require(range.empty() || numeric::is_finite(range.highest - range.lowest), "range() of the seabed", range.highest,
             "finite heights that it never leaves");
@@ -210,7 +210,7 @@ auto prepare(const M& m) {
         return detail::sampler_of(m);
 }
 
-/// The label of the whole seabed, if it has but one.
+/// The label of the whole seabed, if it has only one.
 template <model M>
 std::optional<type> only_type(const M& m) {
     if constexpr (requires { m.only_type(); })

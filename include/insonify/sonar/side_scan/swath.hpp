@@ -61,6 +61,7 @@ image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill
 
 /// Joins a port and a starboard recording of one track, port to the left: range grows outwards from the middle, where
 /// the water column lies. The labels' bounding boxes and areas are those of both sides together.
+/// @throws invalid_input for recordings of different heights
 template <class Labels>
 frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboard) {
     frame<Labels> out;

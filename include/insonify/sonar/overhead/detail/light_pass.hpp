@@ -13,7 +13,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A mesh as a caster, with what the camera's place proves.
+/// A mesh as a caster, and which of its triangles may be skipped for points that the camera sees.
 ///
 /// A ray from a point outside of a closed surface crosses it inwards as often as outwards on its way to the light, and
 /// inwards means through a triangle that faces away from the light: if anything blocks it, such a one does. What a
