@@ -45,7 +45,7 @@ _insonify_tool() {
         slurm) options+=" --tasks" ;;
         amalgamate | reference) options+=" --check" ;;
         compile_cost) options+=" --check --record" ;;
-        mutants) options+=" --jobs --only --least --record" ;;
+        mutants) options+=" --jobs --only --least --record --check" ;;
         tradeoff) options+=" --out --pixels --runs" ;;
     esac
     if [[ $current == -* ]]; then COMPREPLY=($(compgen -W "$options" -- "$current")); fi
