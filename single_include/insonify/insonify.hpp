@@ -2617,11 +2617,130 @@ inline constexpr detail::to_unit to_float{};
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/core/detail/dynamic_array.hpp ----------------------------------------------------
+// An array that grows, for the library's own working data.
+//
+// std::vector serves the public types. Each of its instantiations compiles some fifteen functions, and the library has
+// forty element types of its own: with vectors throughout, a header-only unit took a fifth longer to compile. This
+// array has the members that the library uses, as plain loops.
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// Members are named as those of std::vector and do the same.
+template <class T>
+class dynamic_array {
+  public:
+    using value_type = T;  ///< spans of libc++ 14 are deduced from it
+
+    INSONIFY_MEMBER dynamic_array() noexcept {}
+    INSONIFY_MEMBER explicit dynamic_array(std::size_t count) : dynamic_array() { resize(count); }
+    INSONIFY_MEMBER dynamic_array(std::size_t count, const T& value) : dynamic_array() { assign(count, value); }
+    INSONIFY_MEMBER explicit dynamic_array(std::span<const T> values) : dynamic_array() { append(values); }
+    INSONIFY_MEMBER dynamic_array(std::initializer_list<T> values)
+        : dynamic_array(std::span<const T>(values.begin(), values.size())) {}
+    INSONIFY_MEMBER dynamic_array(const dynamic_array& other)
+        : dynamic_array(std::span<const T>(other.data_, other.size_)) {}
+    INSONIFY_MEMBER dynamic_array(dynamic_array&& other) noexcept { swap(other); }
+    INSONIFY_MEMBER dynamic_array& operator=(dynamic_array other) noexcept {
+        swap(other);
+        return *this;
+    }
+    INSONIFY_TAGGED ~dynamic_array() {
+        shrink(0);
+        ::operator delete(data_);
+    }
+
+    /// @throws std::bad_alloc
+    INSONIFY_TAGGED void reserve(std::size_t count) {
+        if (count <= capacity_) return;
+        // Counts whose bytes would overflow are clamped to a size that no machine has, so that they throw too.
+        constexpr std::size_t largest = PTRDIFF_MAX / sizeof(T);
+        T* moved = static_cast<T*>(::operator new((std::min)(count, largest) * sizeof(T)));
+        if constexpr (std::is_trivially_copyable_v<T>) {
+            if (size_ > 0) std::memcpy(static_cast<void*>(moved), data_, size_ * sizeof(T));
+        } else {
+            for (std::size_t i = 0; i < size_; ++i) {
+                ::new (static_cast<void*>(moved + i)) T(std::move(data_[i]));
+                data_[i].~T();
+            }
+        }
+        ::operator delete(data_);
+        data_ = moved;
+        capacity_ = count;
+    }
+    /// New elements are value-initialized.
+    INSONIFY_TAGGED void resize(std::size_t count) {
+        if (count < size_) return shrink(count);
+        make_room(count);
+        for (; size_ < count; ++size_) ::new (static_cast<void*>(data_ + size_)) T();
+    }
+    INSONIFY_TAGGED void assign(std::size_t count, const T& value) {
+        shrink(0);
+        reserve(count);
+        for (; size_ < count; ++size_) ::new (static_cast<void*>(data_ + size_)) T(value);
+    }
+    /// `values` are of another array.
+    INSONIFY_TAGGED void append(std::span<const T> values) {
+        make_room(size_ + values.size());
+        for (const T& value : values) ::new (static_cast<void*>(data_ + size_++)) T(value);
+    }
+    INSONIFY_TAGGED void push_back(T value) {
+        make_room(size_ + 1);
+        ::new (static_cast<void*>(data_ + size_)) T(std::move(value));
+        ++size_;
+    }
+    INSONIFY_MEMBER void pop_back() { shrink(size_ - 1); }
+    INSONIFY_MEMBER void clear() { shrink(0); }
+    INSONIFY_MEMBER void swap(dynamic_array& other) noexcept {
+        std::swap(data_, other.data_);
+        std::swap(size_, other.size_);
+        std::swap(capacity_, other.capacity_);
+    }
+
+    INSONIFY_MEMBER T* data() { return data_; }
+    INSONIFY_MEMBER const T* data() const { return data_; }
+    INSONIFY_MEMBER std::size_t size() const { return size_; }
+    INSONIFY_MEMBER bool empty() const { return size_ == 0; }
+    INSONIFY_MEMBER T* begin() { return data_; }
+    INSONIFY_MEMBER T* end() { return data_ + size_; }
+    INSONIFY_MEMBER const T* begin() const { return data_; }
+    INSONIFY_MEMBER const T* end() const { return data_ + size_; }
+    INSONIFY_MEMBER T& operator[](std::size_t i) { return data_[i]; }
+    INSONIFY_MEMBER const T& operator[](std::size_t i) const { return data_[i]; }
+    INSONIFY_MEMBER T& front() { return data_[0]; }
+    INSONIFY_MEMBER const T& front() const { return data_[0]; }
+    INSONIFY_MEMBER T& back() { return data_[size_ - 1]; }
+    INSONIFY_MEMBER const T& back() const { return data_[size_ - 1]; }
+
+  private:
+    static_assert(alignof(T) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+    static_assert(std::is_nothrow_move_constructible_v<T>);
+
+    /// At least doubles the capacity where it has to grow, so that appending takes constant time on average.
+    INSONIFY_MEMBER void make_room(std::size_t count) {
+        if (count > capacity_) reserve((std::max)(count, 2 * capacity_));
+    }
+    INSONIFY_TAGGED void shrink(std::size_t count) {
+        if constexpr (std::is_trivially_destructible_v<T>)
+            size_ = count;
+        else
+            while (size_ > count) data_[--size_].~T();
+    }
+
+    T* data_ = nullptr;
+    std::size_t size_ = 0;
+    std::size_t capacity_ = 0;
+};
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
 // ------------ insonify/core/detail/correlation.hpp ------------------------------------------------------
 // Filters that turn white Gaussian noise into noise with a Gaussian autocorrelation exp(-(d / length)^2), to within
 // 0.003 at every whole distance d: the taps are truncated at 1.5 length + 3.
-
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -2633,7 +2752,7 @@ namespace detail::inline INSONIFY_FLAGS {
 /// Fourier transform of the root of the autocorrelation's spectrum: a sampled Gaussian would correlate too little below
 /// a length of 2.
 /// @param length  distance at which the autocorrelation has fallen to 1 / e, 0 to 50; 0: white
-inline std::vector<float> field_taps(double length) {
+inline dynamic_array<float> field_taps(double length) {
     constexpr std::size_t period = 512, half = period / 2;
     if (!(length > 0)) return {1.0f};
     std::array<double, period> cosine{};
@@ -2658,7 +2777,7 @@ inline std::vector<float> field_taps(double length) {
         root[k] = numeric::square_root((std::max)(power, 0.0));
     }
     const std::size_t reach = static_cast<std::size_t>(1.5 * length) + 3;
-    std::vector<double> taps;
+    dynamic_array<double> taps;
     double sum = 0;
     for (std::size_t j = 0; j <= reach; ++j) {
         double tap = root[0] + root[half] * cosine[half * j % period];
@@ -2666,7 +2785,7 @@ inline std::vector<float> field_taps(double length) {
         taps.push_back(tap);
         sum += (j == 0 ? 1 : 2) * tap * tap;
     }
-    std::vector<float> result;
+    dynamic_array<float> result;
     for (const double tap : taps) result.push_back(static_cast<float>(tap / numeric::square_root(sum)));
     return result;
 }
@@ -2791,7 +2910,7 @@ inline auto rice_correlation(double steady) {
 }
 
 /// Taps for fields of echoes without a steady part or texture, whose intensities have the given length.
-inline std::vector<float> intensity_taps(double length) {
+inline dynamic_array<float> intensity_taps(double length) {
     return field_taps(field_length(length, rice_correlation(0)));
 }
 
@@ -3098,6 +3217,8 @@ INSONIFY_ARITHMETIC_END
 // Parameters of filters: a number for all pixels, for each pixel or for each seabed type; correlation lengths of noise;
 // the meaning of pixel values.
 
+#include <vector>
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
@@ -3212,7 +3333,7 @@ inline void require_correlation(const char* name, const correlation_length& leng
 class correlated_draws {
   public:
     /// @param x, y  taps of the filters along rows and columns
-    correlated_draws(noise_key noise, std::vector<float> x, std::vector<float> y)
+    correlated_draws(noise_key noise, dynamic_array<float> x, dynamic_array<float> y)
         : noise_(noise), taps_x_(std::move(x)), taps_y_(std::move(y)) {}
 
     /// The draws of a run, in `into`.
@@ -3237,7 +3358,7 @@ class correlated_draws {
         int x, count;
         int y = 0;
         bool filled = false;
-        std::vector<float> ring;
+        dynamic_array<float> ring;
 
         float* at(int row) {
             const auto rows = static_cast<std::int64_t>(ring.size() / run_length);
@@ -3255,7 +3376,7 @@ class correlated_draws {
         }
         last_ = strips_.size();
         strips_.push_back({field, run.channel, run.x, run.count, 0, false,
-                           std::vector<float>((2 * taps_y_.size() - 1) * run_length)});
+                           dynamic_array<float>((2 * taps_y_.size() - 1) * run_length)});
         return strips_.back();
     }
 
@@ -3263,21 +3384,21 @@ class correlated_draws {
     void blur_row(float* into, std::uint32_t field, const noise_run& run) const {
         const int reach = static_cast<int>(taps_x_.size()) - 1;
         draw_buffer buffer;
-        std::vector<float> white;
+        dynamic_array<float> white;
         for (int x = run.x - reach; x < run.x + run.count + reach; x += run_length) {
             const int count = (std::min)(run_length, run.x + run.count + reach - x);
             const float* const draws = white_draws<normal_draws>(buffer, noise_, field, {x, run.y, count, run.channel});
-            white.insert(white.end(), draws, draws + count);
+            white.append({draws, static_cast<std::size_t>(count)});
         }
         dispatch(taps_along_row{taps_x_, white.data() + reach, 1, into, static_cast<std::size_t>(run.count)},
                  best_isa());
     }
 
     noise_key noise_;
-    std::vector<float> taps_x_, taps_y_;
-    std::vector<strip> strips_;
+    dynamic_array<float> taps_x_, taps_y_;
+    dynamic_array<strip> strips_;
     std::size_t last_ = 0;
-    std::vector<const float*> rows_;
+    dynamic_array<const float*> rows_;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -3333,7 +3454,7 @@ class gamma_texture {
         const double spread = numeric::square_root(160 / shape) + 60 / shape;  // beyond: less than e^-40
         const double low = -(std::min)(spread, 60.0), high = numeric::log(1 + spread), dy = (high - low) / intervals;
         const auto density = [&](double y) { return numeric::exp(shape * (1 + y - numeric::exp(y))); };
-        std::vector<double> below{density(low) / shape};  // the tail to the left is exponential
+        dynamic_array<double> below{density(low) / shape};  // the tail to the left is exponential
         double last = density(low);
         for (std::size_t i = 1; i <= intervals; ++i) {
             const double next = density(low + static_cast<double>(i) * dy);
@@ -3374,7 +3495,7 @@ class gamma_texture {
         powers_[terms - 1] += left;
     }
 
-    std::vector<float> values_;           ///< at z = -7, -7 + step, ...
+    dynamic_array<float> values_;         ///< at z = -7, -7 + step, ...
     std::array<double, terms> powers_{};  ///< of r, r^2, ...; their sum is 1
 };
 
@@ -3945,7 +4066,7 @@ class code_counter {
   private:
     static constexpr std::size_t levels = std::size_t{(std::numeric_limits<Code>::max)()} + 1;
     static constexpr std::size_t tables = sizeof(Code) == 1 ? 4 : 1;
-    std::vector<std::uint32_t> counts_;
+    dynamic_array<std::uint32_t> counts_;
 };
 
 /// Counts any pixel type into any number of bins.
@@ -3966,7 +4087,7 @@ class bin_counter {
 
   private:
     int bins_;
-    std::vector<std::uint32_t> counts_;
+    dynamic_array<std::uint32_t> counts_;
 };
 
 /// Counts bands of an image, each with a counter of its own from `make()`, and adds them up.
@@ -3978,7 +4099,7 @@ std::vector<std::uint64_t> count_bands(image_view<const Pixel> source, int bins,
     const auto width = static_cast<std::size_t>((std::max)(source.width(), 1));
     const std::size_t max_rows = (std::size_t{1} << 31) / width, min_rows = counter::min_pixels / width + 1;
     const std::size_t grain = (std::max)((std::min)(rows / 16 + 1, max_rows), min_rows);
-    std::vector<std::vector<std::uint64_t>> bands((rows + grain - 1) / grain);
+    dynamic_array<dynamic_array<std::uint64_t>> bands((rows + grain - 1) / grain);
     bulk_ranges(ex, rows, grain, [&](std::size_t first, std::size_t last) {
         counter own = make();
         for (std::size_t y = first; y < last; ++y) {
@@ -3986,12 +4107,12 @@ std::vector<std::uint64_t> count_bands(image_view<const Pixel> source, int bins,
             for (int x = 0; x < source.width(); x += run_length)
                 own.add(row.data() + x, (std::min)(run_length, source.width() - x));
         }
-        std::vector<std::uint64_t>& band = bands[first / grain];
+        dynamic_array<std::uint64_t>& band = bands[first / grain];
         band.resize(static_cast<std::size_t>(bins));
         own.add_to(band);
     });
     std::vector<std::uint64_t> sums(static_cast<std::size_t>(bins));
-    for (const std::vector<std::uint64_t>& band : bands)
+    for (const dynamic_array<std::uint64_t>& band : bands)
         for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += band[i];
     return sums;
 }
@@ -4021,12 +4142,12 @@ inline constexpr int source_levels = std::same_as<Pixel, std::uint16_t> ? 65536 
 template <countable_pixel Pixel>
 class level_map {
   public:
-    explicit level_map(std::vector<Pixel> values)
-        : values_(std::make_shared<const std::vector<Pixel>>(std::move(values))) {}
+    explicit level_map(dynamic_array<Pixel> values)
+        : values_(std::make_shared<const dynamic_array<Pixel>>(std::move(values))) {}
 
     template <std::same_as<Pixel> P>
     P operator()(P pixel) const {
-        const std::vector<Pixel>& values = *values_;
+        const dynamic_array<Pixel>& values = *values_;
         if constexpr (std::is_same_v<P, float>)
             return pixel == pixel ? values[quantize<std::uint8_t>(pixel)] : pixel;
         else
@@ -4047,7 +4168,7 @@ class level_map {
     }
 
   private:
-    std::shared_ptr<const std::vector<Pixel>> values_;  // passes are copied; the table isn't
+    std::shared_ptr<const dynamic_array<Pixel>> values_;  // passes are copied; the table isn't
 };
 
 /// The map of histeq: each source level goes to the first level of `wanted` whose cumulative share reaches the
@@ -4061,7 +4182,7 @@ level_map<Pixel> map_levels(std::span<const std::uint64_t> source, std::span<con
     const auto wanted_total = static_cast<double>(total(wanted));
     constexpr double tolerance = 0x1p-26;
     const std::size_t levels = source.size();
-    std::vector<Pixel> values(levels);
+    dynamic_array<Pixel> values(levels);
     std::uint64_t below = 0, reached = wanted[0];
     std::size_t target = 0;
     for (std::size_t level = 0; level < levels; ++level) {
@@ -4242,7 +4363,7 @@ constexpr std::uint64_t key_of(const keyed& item) {
 
 /// Sorts items by their key_of. The order of equal ones is kept.
 template <class Item>
-void radix_sort(std::vector<Item>& items) {
+void radix_sort(dynamic_array<Item>& items) {
     if (items.size() < 64) {  // shorter than the counts: insertion
         for (std::size_t i = 1; i < items.size(); ++i) {
             const Item item = items[i];
@@ -4256,10 +4377,10 @@ void radix_sort(std::vector<Item>& items) {
     const auto digit_of = [](const Item& item, std::size_t digit) {
         return static_cast<std::size_t>(key_of(item) >> (11 * digit)) % values;
     };
-    std::vector<std::size_t> counts(digits * values);
+    dynamic_array<std::size_t> counts(digits * values);
     for (const Item& item : items)
         for (std::size_t digit = 0; digit < digits; ++digit) ++counts[digit * values + digit_of(item, digit)];
-    std::vector<Item> sorted(items.size());
+    dynamic_array<Item> sorted(items.size());
     for (std::size_t digit = 0; digit < digits; ++digit) {
         std::size_t* const starts = &counts[digit * values];
         if (starts[digit_of(items.front(), digit)] == items.size()) continue;  // all have this digit
@@ -4303,7 +4424,7 @@ INSONIFY_FUNCTION distribution distribution_of(image_view<const float> source);
 
 #if INSONIFY_BODIES
 INSONIFY_FUNCTION distribution distribution_of(image_view<const float> source) {
-    std::vector<std::uint32_t> keys;
+    detail::dynamic_array<std::uint32_t> keys;
     keys.reserve(source.size());
     for (int y = 0; y < source.height(); ++y) {
         for (const float pixel : source.row(y)) {
@@ -4350,11 +4471,11 @@ distribution distribution_of(const image<Pixel>& source) {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// The value of `reference` at the rank of each value of `source`.
-inline std::vector<float> values_at_ranks(const distribution& source, const distribution& reference) {
+inline dynamic_array<float> values_at_ranks(const distribution& source, const distribution& reference) {
     const auto total = static_cast<double>(source.total());
     const auto reference_total = static_cast<double>(reference.total());
     const auto share = [&](std::size_t i) { return static_cast<double>(reference.cumulative[i]) / reference_total; };
-    std::vector<float> result(source.values.size());
+    dynamic_array<float> result(source.values.size());
     std::size_t above = 0;
     for (std::size_t i = 0; i < result.size(); ++i) {
         const double rank = static_cast<double>(source.cumulative[i]) / total;
@@ -4412,9 +4533,9 @@ class rank_pass {
 
   private:
     struct table {
-        std::vector<float> values;          // of the source, rising
-        std::vector<float> ranked;          // the reference's values at their ranks
-        std::vector<std::uint32_t> starts;  // where each bucket of values begins
+        std::vector<float> values;            // of the source, rising
+        dynamic_array<float> ranked;          // the reference's values at their ranks
+        dynamic_array<std::uint32_t> starts;  // where each bucket of values begins
         double scale = 0;
 
         std::size_t bucket(float value) const {
@@ -4461,9 +4582,9 @@ class match_histogram {
     template <pixel_code Code, executor_argument E = serial_executor>
     INSONIFY_TAGGED detail::level_map<Code> pass(image_view<const Code> source, E&& ex = {}) const {
         const distribution codes = distribution_of(source, ex);
-        const std::vector<float> ranked =
-            codes.values.empty() ? std::vector<float>{} : detail::values_at_ranks(codes, *reference_);
-        std::vector<Code> values(static_cast<std::size_t>((std::numeric_limits<Code>::max)()) + 1);
+        const detail::dynamic_array<float> ranked =
+            codes.values.empty() ? detail::dynamic_array<float>{} : detail::values_at_ranks(codes, *reference_);
+        detail::dynamic_array<Code> values(static_cast<std::size_t>((std::numeric_limits<Code>::max)()) + 1);
         for (std::size_t i = 0; i < ranked.size(); ++i)
             values[quantize<Code>(codes.values[i])] = quantize<Code>(ranked[i]);
         return detail::level_map<Code>(std::move(values));
@@ -5624,7 +5745,7 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// Appends an arc of a circle centred on the axis, `steps` + 1 points from `first` to `last`: turns, counted from the
 /// lowest point (0) over the equator (1/4) to the highest (1/2).
-inline void append_arc(std::vector<outline_point>& outline, double radius, double centre, double first, double last,
+inline void append_arc(dynamic_array<outline_point>& outline, double radius, double centre, double first, double last,
                        int steps) {
     for (int i = 0; i <= steps; ++i) {
         const auto [sine, cosine] = numeric::sin_cos_turns(first + (last - first) * i / steps);
@@ -5695,7 +5816,7 @@ INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segme
         out.normals.push_back(turned(p.normal_radius, p.normal_height, angle));
     };
 
-    std::vector<numeric::sine_cosine> angles(count), half_angles(count);
+    detail::dynamic_array<numeric::sine_cosine> angles(count), half_angles(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         angles[i] = numeric::sin_cos_turns(i / static_cast<double>(segments));
         half_angles[i] = numeric::sin_cos_turns((i + 0.5) / segments);
@@ -5774,11 +5895,14 @@ inline mesh to_mesh(const cone& shape) {
     const double slant = numeric::square_root(height * height + (radius - top) * (radius - top));
     const double outwards = height / slant;
     const double upwards = (radius - top) / slant;
-    std::vector<outline_point> outline = {{0, -height / 2, 0, -1},
-                                          {radius, -height / 2, 0, -1},
-                                          {radius, -height / 2, outwards, upwards},
-                                          {top, height / 2, outwards, upwards}};
-    if (top > 0) outline.insert(outline.end(), {{top, height / 2, 0, 1}, {0, height / 2, 0, 1}});
+    detail::dynamic_array<outline_point> outline = {{0, -height / 2, 0, -1},
+                                                    {radius, -height / 2, 0, -1},
+                                                    {radius, -height / 2, outwards, upwards},
+                                                    {top, height / 2, outwards, upwards}};
+    if (top > 0) {
+        outline.push_back({top, height / 2, 0, 1});
+        outline.push_back({0, height / 2, 0, 1});
+    }
     return revolve(outline, shape.segments);
 }
 
@@ -5894,7 +6018,7 @@ inline mesh to_mesh(const capsule& shape) {
     const auto radius = static_cast<double>(shape.radius);
     const double straight = 0.5 * static_cast<double>(shape.length) - radius;
     const int steps = (shape.segments + 3) / 4;
-    std::vector<outline_point> outline;
+    detail::dynamic_array<outline_point> outline;
     detail::append_arc(outline, radius, -straight, 0.0, 0.25, steps);
     detail::append_arc(outline, radius, straight, 0.25, 0.5, steps);
     return revolve(outline, shape.segments, axis::x);
@@ -6022,7 +6146,7 @@ inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
 template <executor_argument E = serial_executor>
 bounding_box bounds(const mesh_view& m, E&& ex = {}) {
     constexpr std::size_t grain = 65536;
-    std::vector<bounding_box> parts((m.positions.size() + grain - 1) / grain);
+    detail::dynamic_array<bounding_box> parts((m.positions.size() + grain - 1) / grain);
     bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
         constexpr float infinity = std::numeric_limits<float>::infinity();
         glm::vec3 lower(infinity), upper(-infinity);
@@ -6085,7 +6209,7 @@ inline std::uint64_t every_third_bit(std::uint64_t value) {
 /// Sorts triangles along Morton's curve through their centres, and vertices by the first triangle that uses them.
 inline void order_along_curve(mesh& m, const bounding_box& box) {
     const glm::dvec3 size = box.size();
-    std::vector<keyed> order(m.triangles.size());
+    dynamic_array<keyed> order(m.triangles.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
         std::uint64_t key = 0;
         for (int axis = 0; axis < 3; ++axis) {
@@ -6100,7 +6224,7 @@ inline void order_along_curve(mesh& m, const bounding_box& box) {
     radix_sort(order);
 
     constexpr std::uint32_t unused = 0xFFFFFFFFu;
-    std::vector<std::uint32_t> number(m.positions.size(), unused);
+    dynamic_array<std::uint32_t> number(m.positions.size(), unused);
     mesh sorted;
     sorted.triangles.reserve(m.triangles.size());
     sorted.positions.reserve(m.positions.size());
@@ -6193,7 +6317,7 @@ class triangle_lattice {
 
 /// The vertices of a mesh as points of a lattice.
 struct lattice_vertices {
-    std::vector<glm::ivec2> at;  ///< column and row of each vertex
+    dynamic_array<glm::ivec2> at;  ///< column and row of each vertex
     glm::ivec2 lowest{0}, highest{0};
 
     std::size_t columns() const { return static_cast<std::size_t>(highest.x - lowest.x + 1); }
@@ -6217,9 +6341,9 @@ struct lattice_vertices {
     }
 
     /// The vertex at each point, row by row; none if a point has two.
-    std::optional<std::vector<std::uint32_t>> by_point() const {
+    std::optional<dynamic_array<std::uint32_t>> by_point() const {
         constexpr std::uint32_t none = 0xFFFFFFFFu;
-        std::vector<std::uint32_t> vertices(at.size(), none);
+        dynamic_array<std::uint32_t> vertices(at.size(), none);
         for (std::uint32_t v = 0; v < at.size(); ++v) {
             std::uint32_t& vertex = vertices[index(at[v], columns())];
             if (vertex != none) return std::nullopt;
@@ -6314,7 +6438,7 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input if an index has no position
 inline std::vector<glm::vec3> smooth_normals(const mesh& m) {
     validate(m);
-    std::vector<glm::dvec3> sums(m.positions.size(), glm::dvec3(0));
+    detail::dynamic_array<glm::dvec3> sums(m.positions.size(), glm::dvec3(0));
     for (const glm::uvec3& t : m.triangles) {
         const glm::dvec3 corners[3] = {glm::dvec3(m.positions[t.x]), glm::dvec3(m.positions[t.y]),
                                        glm::dvec3(m.positions[t.z])};
@@ -6489,7 +6613,7 @@ std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, dou
 
     std::atomic<bool> differs = false;
     constexpr std::size_t grain = 16;
-    std::vector<double> farthest((rows + grain - 1) / grain, 0);  // squared, of the vertices of some rows
+    detail::dynamic_array<double> farthest((rows + grain - 1) / grain, 0);  // squared, of the vertices of some rows
     bulk_ranges(ex, rows, grain, [&](std::size_t first, std::size_t last) {
         for (std::size_t j = first; j < last && !differs; ++j) {
             const glm::dvec2 start = grid.origin + static_cast<double>(j) * grid.up;
@@ -6553,7 +6677,7 @@ struct topology {
 /// For each position, the index of the first equal one; NaN equals nothing. Linear in the positions.
 inline std::vector<std::uint32_t> weld(const std::vector<glm::vec3>& positions) {
     std::vector<std::uint32_t> first(positions.size());
-    std::vector<detail::keyed> order;
+    detail::dynamic_array<detail::keyed> order;
     order.reserve(positions.size());
     // Adding 0 makes one value of both zeros.
     const auto bits = [&](std::uint32_t i, int axis) { return detail::ordered_bits(positions[i][axis] + 0.0f); };
@@ -6580,14 +6704,14 @@ inline topology inspect(const mesh& m) {
     const std::vector<std::uint32_t> first = weld(m.positions);
 
     // An edge's key has its lower vertex first; the number is the triangle's direction along it.
-    std::vector<detail::keyed> sides;
+    detail::dynamic_array<detail::keyed> sides;
     std::vector<bool> used(m.positions.size());
     std::vector<std::uint32_t> joined = first;  // union-find: a vertex of the same piece; the root is its id
     const auto piece_of = [&](std::uint32_t vertex) {
         while (joined[vertex] != vertex) vertex = joined[vertex] = joined[joined[vertex]];
         return vertex;
     };
-    std::vector<double> volume(m.positions.size());  // by piece, six times the enclosed volume
+    detail::dynamic_array<double> volume(m.positions.size());  // by piece, six times the enclosed volume
     sides.reserve(3 * m.triangles.size());
     for (const glm::uvec3& t : m.triangles) {
         const std::uint32_t corners[3] = {first[t.x], first[t.y], first[t.z]};
@@ -6666,10 +6790,10 @@ INSONIFY_FUNCTION surface_kind kind_of(const mesh& m);
 namespace detail::inline INSONIFY_FLAGS {
 
 /// Net directed edges of a mesh: those that triangles traverse more often in one direction than in the other.
-inline std::vector<std::pair<std::uint32_t, std::uint32_t>> unbalanced_edges(const mesh& m) {
+inline dynamic_array<std::pair<std::uint32_t, std::uint32_t>> unbalanced_edges(const mesh& m) {
     const std::vector<std::uint32_t> first = weld(m.positions);
     using edge = std::pair<std::uint32_t, std::uint32_t>;
-    std::vector<edge> edges;
+    dynamic_array<edge> edges;
     edges.reserve(3 * m.triangles.size());
     for (const glm::uvec3& t : m.triangles)
         for (int i = 0; i < 3; ++i) {
@@ -6679,9 +6803,9 @@ inline std::vector<std::pair<std::uint32_t, std::uint32_t>> unbalanced_edges(con
     // Counting sorts, by the higher vertex and then by the lower one, bring the edges between two vertices together.
     const auto lower = [](const edge& e) { return (std::min)(e.first, e.second); };
     const auto higher = [](const edge& e) { return (std::max)(e.first, e.second); };
-    std::vector<edge> sorted(edges.size());
+    dynamic_array<edge> sorted(edges.size());
     for (const bool by_lower : {false, true}) {
-        std::vector<std::uint32_t> starts(m.positions.size() + 1, 0);
+        dynamic_array<std::uint32_t> starts(m.positions.size() + 1, 0);
         const auto vertex = [&](const edge& e) { return by_lower ? lower(e) : higher(e); };
         for (const edge& e : edges) ++starts[vertex(e) + 1];
         for (std::size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
@@ -6689,21 +6813,21 @@ inline std::vector<std::pair<std::uint32_t, std::uint32_t>> unbalanced_edges(con
         edges.swap(sorted);
     }
 
-    std::vector<edge> open;
+    dynamic_array<edge> open;
     for (std::size_t i = 0; i < edges.size();) {
         const std::uint32_t low = lower(edges[i]), high = higher(edges[i]);
         std::int64_t balance = 0;
         for (; i < edges.size() && lower(edges[i]) == low && higher(edges[i]) == high; ++i)
             balance += edges[i].first == low ? 1 : -1;
-        for (; balance > 0; --balance) open.emplace_back(low, high);
-        for (; balance < 0; ++balance) open.emplace_back(high, low);
+        for (; balance > 0; --balance) open.push_back({low, high});
+        for (; balance < 0; ++balance) open.push_back({high, low});
     }
     return open;
 }
 
 /// Whether directed edges make one loop that goes once around a convex polygon, seen from above.
-inline bool is_convex_loop(const mesh& m, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& edges) {
-    std::vector<std::uint32_t> after(m.positions.size(), 0xFFFFFFFFu);
+inline bool is_convex_loop(const mesh& m, const dynamic_array<std::pair<std::uint32_t, std::uint32_t>>& edges) {
+    dynamic_array<std::uint32_t> after(m.positions.size(), 0xFFFFFFFFu);
     for (const auto& [from, to] : edges) {
         if (after[from] != 0xFFFFFFFFu) return false;
         after[from] = to;
@@ -6834,7 +6958,7 @@ inline constexpr bool is_primitive = is_among<Shape, cube, cylinder, capsule, co
 class shared_mesh {
   public:
     /// No triangles.
-    shared_mesh() : facts_(std::make_shared<const detail::mesh_facts>()) {}
+    shared_mesh() : facts_(std::make_shared<detail::mesh_facts>()) {}
     /// @throws invalid_input for indices or normals that don't match the positions
     INSONIFY_MEMBER shared_mesh(mesh m) : facts_(detail::facts_of(std::move(m))) {}
     /// The mesh of a shape with a `to_mesh`. Primitives skip the analysis, because their type tells its results; a
@@ -6898,7 +7022,7 @@ float longest_semi_axis(const Round& shape) {
 }
 
 /// Turns an outline about z and stretches the result with its normals.
-inline mesh stretched_round(const std::vector<outline_point>& outline, const char* name, const glm::vec3& aspect,
+inline mesh stretched_round(const dynamic_array<outline_point>& outline, const char* name, const glm::vec3& aspect,
                             int segments) {
     mesh out = revolve(outline, segments);
     if (aspect == glm::vec3(1)) return out;
@@ -6919,7 +7043,7 @@ inline namespace INSONIFY_FLAGS {
 inline mesh to_mesh(const sphere& shape) {
     detail::require_positive("sphere.radius", shape.radius);
     detail::require_round_segments("sphere.segments", shape.segments);
-    std::vector<outline_point> outline;
+    detail::dynamic_array<outline_point> outline;
     detail::append_arc(outline, static_cast<double>(shape.radius), 0.0, 0.0, 0.5, (shape.segments + 1) / 2);
     return detail::stretched_round(outline, "sphere.aspect", shape.aspect, shape.segments);
 }
@@ -6929,7 +7053,7 @@ inline mesh to_mesh(const hemisphere& shape) {
     detail::require_positive("hemisphere.radius", shape.radius);
     detail::require_round_segments("hemisphere.segments", shape.segments);
     const auto radius = static_cast<double>(shape.radius);
-    std::vector<outline_point> outline = {{0, 0, 0, -1}, {radius, 0, 0, -1}};
+    detail::dynamic_array<outline_point> outline = {{0, 0, 0, -1}, {radius, 0, 0, -1}};
     detail::append_arc(outline, radius, 0.0, 0.25, 0.5, (shape.segments + 3) / 4);
     return detail::stretched_round(outline, "hemisphere.aspect", shape.aspect, shape.segments);
 }
@@ -8002,8 +8126,8 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/seabed/any.hpp -------------------------------------------------------------------
 // Type-erased seabed: holds any model, the library's or a user's.
 //
-// The model is immutable and shared by copies. Evaluation takes one virtual call per row. There is no list of types, so
-// models that a program does not use are not compiled.
+// The model is immutable and shared by copies. Evaluation takes one indirect call per row. There is no list of types,
+// so models that a program does not use are not compiled.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -8011,33 +8135,29 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-namespace detail {
-
-struct sampler_interface {
-    virtual ~sampler_interface() = default;
-    virtual void row(const scanline& line, std::span<float> heights, std::span<type> types) const = 0;
-    virtual height_range range() const = 0;
-};
-
-}  // namespace detail
-
 /// A prepared seabed of any model; shares ownership of the model.
 class any_sampler {
   public:
+    using row_function = void(const void* sampler, const scanline&, std::span<float> heights, std::span<type> types);
+
     any_sampler() = default;
-    INSONIFY_MEMBER explicit any_sampler(std::shared_ptr<const detail::sampler_interface> held)
-        : held_(std::move(held)) {}
+    /// @param evaluate  is called with the sampler
+    /// @param range     of the heights
+    INSONIFY_MEMBER any_sampler(std::shared_ptr<const void> sampler, row_function* evaluate, const height_range& range)
+        : held_(std::move(sampler)), evaluate_(evaluate), range_(range) {}
 
     INSONIFY_TAGGED void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
-        if (held_ != nullptr) return held_->row(line, heights, types);
+        if (held_ != nullptr) return evaluate_(held_.get(), line, heights, types);
         std::fill(heights.begin(), heights.end(), std::numeric_limits<float>::quiet_NaN());
         std::fill(types.begin(), types.end(), type::sand);
     }
     INSONIFY_TAGGED void row(const scanline& line, std::span<float> heights) const { row(line, heights, {}); }
-    INSONIFY_MEMBER height_range range() const { return held_ != nullptr ? held_->range() : height_range{}; }
+    INSONIFY_MEMBER height_range range() const { return range_; }
 
   private:
-    std::shared_ptr<const detail::sampler_interface> held_;
+    std::shared_ptr<const void> held_;
+    row_function* evaluate_ = nullptr;
+    height_range range_;
 };
 
 namespace detail {
@@ -8059,22 +8179,21 @@ struct model_interface {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-template <typed_sampler S>
-struct held_sampler final : sampler_interface {
-    S sampler;
-    std::shared_ptr<const void> owner;
-
-    held_sampler(S s, std::shared_ptr<const void> o) : sampler(std::move(s)), owner(std::move(o)) {}
-    void row(const scanline& line, std::span<float> heights, std::span<type> types) const override {
-        sampler.row(line, heights, types);
-    }
-    height_range range() const override { return range_of(sampler); }
-};
-
+/// Erases the type of a sampler. The call goes through a function pointer because compilers drop unused virtual
+/// functions late: programs would pay for seabeds that they don't use.
 /// @param owner  kept alive for as long as the sampler, which may refer to it
 template <typed_sampler S>
 any_sampler hold_sampler(S sampler, std::shared_ptr<const void> owner = nullptr) {
-    return any_sampler(std::make_shared<const held_sampler<S>>(std::move(sampler), std::move(owner)));
+    struct held {
+        S sampler;
+        std::shared_ptr<const void> owner;
+    };
+    const height_range range = range_of(sampler);
+    return {std::shared_ptr<const void>(new held{std::move(sampler), std::move(owner)}),
+            [](const void* from, const scanline& line, std::span<float> heights, std::span<type> types) {
+                static_cast<const held*>(from)->sampler.row(line, heights, types);
+            },
+            range};
 }
 
 template <class M>
@@ -8098,7 +8217,7 @@ inline namespace INSONIFY_FLAGS {
 /// A model for `any` to share. In the compiled form the built-in models have overloads, compiled once.
 template <model M>
 std::shared_ptr<const detail::model_interface> hold(M m) {
-    return std::make_shared<const detail::held_model<M>>(std::move(m));
+    return std::unique_ptr<const detail::model_interface>(new detail::held_model<M>(std::move(m)));
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -8694,7 +8813,7 @@ class power_law_noise {
             o.noise.template add<N>(part, kept * o.amplitude, values);
         }
     }
-    std::vector<octave> octaves_;
+    insonify::detail::dynamic_array<octave> octaves_;
     double slope_ = 0;
 };
 
@@ -9279,7 +9398,7 @@ class trawl_furrows {
         return depth_ * strength * (off < 1 ? 0.3f - 1.3f * inner * inner : 0.3f * fade(clamp01(2 - off)));
     }
 
-    std::vector<family> families_;
+    insonify::detail::dynamic_array<family> families_;
     float depth_, half_width_ = 0;  // the latter in strips
     double width_;
     cell_hash hash_;
@@ -9704,7 +9823,7 @@ class rock_sampler {
         const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(r.sizes) - 2));
         float share = 1, height = 0.8f * r.relief, largest = 1;
         float size = r.block;
-        std::vector<float> shares;
+        insonify::detail::dynamic_array<float> shares;
         for (; shares.empty() || size >= r.smallest; size /= 2, share *= ratio) {
             shares.push_back(share);
             largest = (std::max)(largest, share);
@@ -9773,8 +9892,8 @@ class rock_sampler {
         }
     }
 
-    std::vector<detail::gradient_noise> outcrops_;
-    std::vector<detail::block_layer> blocks_;
+    insonify::detail::dynamic_array<detail::gradient_noise> outcrops_;
+    insonify::detail::dynamic_array<detail::block_layer> blocks_;
     detail::power_law_noise surface_;
     float relief_;
 };
@@ -9844,8 +9963,10 @@ inline roughness roughness_of(sediment s) {
     return {.rms = 2.3784f * facts_of(s).rms(), .longest = 4, .shortest = 0.06f};
 }
 
-/// The seabed that a sediment makes, with its label: outcrops and boulders of rock, cobbles, level sand, soft mud.
-inline any bottom_of(sediment s, std::uint64_t seed = 1) {
+/// The seabed that a sediment makes, with its label: outcrops and boulders of rock, cobbles, level sand, soft mud. A
+/// template, so that programs that don't call it don't compile these models.
+template <std::same_as<sediment> Sediment>
+any bottom_of(Sediment s, std::uint64_t seed = 1) {
     const roughness surface = roughness_of(s);
     const sediment_form& form = facts_of(s).form;
     const type kind = type_of(s);
@@ -10267,7 +10388,7 @@ struct automatic_display {
             "automatic_display.scale", static_cast<int>(scale), "power, amplitude or decibels");
         detail::require_range("automatic_display.black", black, 0, 0.49f, "0 to 0.49");
         detail::require_range("automatic_display.white", white, 0, 0.49f, "0 to 0.49");
-        std::vector<float> values;
+        detail::dynamic_array<float> values;
         values.reserve(picture.size());
         for (int y = 0; y < picture.height(); ++y)
             for (const float v : picture.row(y))
@@ -10560,7 +10681,7 @@ inline namespace INSONIFY_FLAGS {
 /// The class of every pixel that shows a target.
 inline class_map classes_of(const labels& l) {
     class_map map;
-    std::vector<std::uint16_t> class_of{0};  // by instance
+    detail::dynamic_array<std::uint16_t> class_of{0};  // by instance
     for (const target_label& t : l.targets) {
         const auto known = std::find(map.names.begin(), map.names.end(), t.class_name);
         class_of.push_back(static_cast<std::uint16_t>(known - map.names.begin() + 1));
@@ -11135,7 +11256,7 @@ inline std::optional<std::uint32_t> bad_index(std::span<const glm::uvec3> triang
 template <executor E>
 void require_indices(const mesh_view& m, E& ex) {
     constexpr std::size_t grain = 65536;
-    std::vector<std::optional<std::uint32_t>> bad((m.triangles.size() + grain - 1) / grain);
+    dynamic_array<std::optional<std::uint32_t>> bad((m.triangles.size() + grain - 1) / grain);
     bulk_ranges(ex, m.triangles.size(), grain, [&](std::size_t first, std::size_t last) {
         bad[first / grain] = bad_index(m.triangles.subspan(first, last - first), m.positions.size(), best_isa());
     });
@@ -11292,7 +11413,7 @@ class tile_runs {
         tile_range tiles;
         triangle_run run;
     };
-    std::vector<entry> entries_;
+    dynamic_array<entry> entries_;
 };
 
 /// Runs by tile.
@@ -11305,7 +11426,7 @@ class tile_bins {
     tile_bins(std::span<const tile_runs> chunks, const tile_grid& grid, E& ex) : first_(grid.count() + 1, 0) {
         // How many runs each chunk has in each tile; then, where it puts the next one.
         const std::size_t tiles = grid.count();
-        std::vector<std::uint32_t> positions(chunks.size() * tiles, 0);
+        dynamic_array<std::uint32_t> positions(chunks.size() * tiles, 0);
         const auto of_chunk = [&](std::size_t chunk) { return std::span(positions).subspan(chunk * tiles, tiles); };
         ex.bulk(chunks.size(), [&](std::size_t chunk) {
             chunks[chunk].for_each(grid, [&](std::size_t tile, const triangle_run&) { ++of_chunk(chunk)[tile]; });
@@ -11313,7 +11434,7 @@ class tile_bins {
         for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk)
             for (std::size_t tile = 0; tile < tiles; ++tile) first_[tile + 1] += of_chunk(chunk)[tile];
         for (std::size_t tile = 0; tile < tiles; ++tile) first_[tile + 1] += first_[tile];
-        std::vector<std::uint32_t> next = first_;
+        dynamic_array<std::uint32_t> next = first_;
         for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk)
             for (std::size_t tile = 0; tile < tiles; ++tile)
                 next[tile] += std::exchange(of_chunk(chunk)[tile], next[tile]);
@@ -11330,7 +11451,7 @@ class tile_bins {
     }
 
   private:
-    std::vector<std::uint32_t> first_;
+    dynamic_array<std::uint32_t> first_;
     uninitialized_array<triangle_run> runs_;
 };
 
@@ -12703,7 +12824,7 @@ namespace detail::inline INSONIFY_FLAGS {
 /// The visible triangles of a chunk, and the counts of all.
 struct assembled_chunk {
     tile_runs runs;
-    std::vector<wide_triangle> wide;
+    dynamic_array<wide_triangle> wide;
     draw_stats stats;
     std::optional<std::uint32_t> bad_index;
 };
@@ -12736,7 +12857,7 @@ class screen_mesh {
                      options.level);
         });
         const std::size_t grain = (std::max)(std::size_t{4096}, (m.triangles.size() / 64 + 16) / 16 * 16);
-        std::vector<assembled_chunk> chunks((m.triangles.size() + grain - 1) / grain);
+        dynamic_array<assembled_chunk> chunks((m.triangles.size() + grain - 1) / grain);
         bulk_ranges(ex, m.triangles.size(), grain, [&](std::size_t first, std::size_t last) {
             assembled_chunk& chunk = chunks[first / grain];
             chunk.bad_index = bad_index(m.triangles.subspan(first, last - first), m.positions.size(), options.level);
@@ -12749,12 +12870,12 @@ class screen_mesh {
         for (const assembled_chunk& c : chunks)
             if (c.bad_index) detail::refuse("mesh.triangles", *c.bad_index, "an index of a position");
 
-        std::vector<tile_runs> runs;
+        dynamic_array<tile_runs> runs;
         runs.reserve(chunks.size());
         for (assembled_chunk& c : chunks) {
             const auto offset = static_cast<std::uint32_t>(wide_.size());
             if (offset > 0 && !c.wide.empty()) c.runs.shift_ids(compact_count_, offset);
-            wide_.insert(wide_.end(), c.wide.begin(), c.wide.end());
+            wide_.append(c.wide);
             runs.push_back(std::move(c.runs));
             stats_ += c.stats;
         }
@@ -12875,7 +12996,7 @@ class screen_mesh {
     projection projection_;
     cull_mode cull_;
     screen_vertices<Real> vertices_;
-    std::vector<wide_triangle> wide_;
+    dynamic_array<wide_triangle> wide_;
     tile_bins bins_;
     draw_stats stats_;
 };
@@ -13905,7 +14026,7 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& shader, image_view
     const float sign = options.keep == keep_depth::smaller ? 1.0f : -1.0f;
 
     const std::size_t run = tiles.run();
-    std::vector<std::uint64_t> shaded((tiles.count() + run - 1) / run, 0);
+    dynamic_array<std::uint64_t> shaded((tiles.count() + run - 1) / run, 0);
     bulk_ranges(ex, tiles.count(), run, [&](std::size_t first, std::size_t last) {
         tile_buffer<HasIds> buffer(options.tile);
         for (std::size_t tile = first; tile < last; ++tile) {
@@ -14811,7 +14932,7 @@ class block_heights {
         highest_ = insonify::detail::uninitialized_array<float>(
             static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), insonify::detail::memory_of(ex));
         bulk_ranges(ex, static_cast<std::size_t>(columns_), 4, [&](std::size_t from, std::size_t to) {
-            std::vector<float> row(static_cast<std::size_t>(grid.rows));
+            insonify::detail::dynamic_array<float> row(static_cast<std::size_t>(grid.rows));
             for (auto column = static_cast<int>(from); column < static_cast<int>(to); ++column)
                 insonify::detail::dispatch(kernel{grid, heights, column * side, row.data(),
                                                   highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_, rows_},
@@ -15327,7 +15448,7 @@ class plane_caster {
                                        level);
         });
         const std::size_t grain = (std::max)(std::size_t{4096}, (triangles_.size() / 64 + 16) / 16 * 16);
-        std::vector<insonify::detail::tile_runs> chunks((triangles_.size() + grain - 1) / grain);
+        insonify::detail::dynamic_array<insonify::detail::tile_runs> chunks((triangles_.size() + grain - 1) / grain);
         bulk_ranges(ex, triangles_.size(), grain, [&](std::size_t first, std::size_t last) {
             insonify::detail::dispatch(
                 tile_assembly_kernel{vertices_.data(), triangles_.data(), first, last, tiles, chunks[first / grain]},
@@ -15432,7 +15553,8 @@ class receiver_cells {
         for (auto* array : {&mesh, &triangle, &lit_mesh, &limit_}) array->resize(room);
         is_limited_ = false;
         lit_ = averted_ = {};
-        next_.assign(starts_.begin(), starts_.end() - 1);
+        next_.clear();
+        next_.append(starts_);
         for (std::size_t i = 0; i < count; ++i) {
             const receiver& r = from[i];
             const std::size_t at = next_[keys_[i]]++;
@@ -15478,11 +15600,12 @@ class receiver_cells {
         return starts_[static_cast<std::size_t>(row * columns_ + column)];
     }
 
-    std::vector<float> u, v, height;  ///< in the order of cells, with room for one more vector
-    std::vector<batch_index> place;
-    std::vector<std::uint32_t> mesh, triangle;
-    std::vector<std::uint32_t> lit_mesh;  ///< the mesh of a point whose facet faces the light, or invalid_id
-    std::vector<std::int32_t> caster;     ///< that blocks it, or open, or closed
+    insonify::detail::dynamic_array<float> u, v, height;  ///< in the order of cells, with room for one more vector
+    insonify::detail::dynamic_array<batch_index> place;
+    insonify::detail::dynamic_array<std::uint32_t> mesh, triangle;
+    insonify::detail::dynamic_array<std::uint32_t>
+        lit_mesh;  ///< the mesh of a point whose facet faces the light, or invalid_id
+    insonify::detail::dynamic_array<std::int32_t> caster;  ///< that blocks it, or open, or closed
 
   private:
     static constexpr int widest = 128;          // rows
@@ -15500,8 +15623,8 @@ class receiver_cells {
     float lowest_ = 0, highest_ = 0, largest_ = 0;
     bool is_limited_ = false;
     mesh_range lit_, averted_;  ///< meshes of points that face the light, and of those that face away
-    std::vector<std::uint32_t> starts_, next_, limit_;
-    std::vector<std::uint16_t> keys_;
+    insonify::detail::dynamic_array<std::uint32_t> starts_, next_, limit_;
+    insonify::detail::dynamic_array<std::uint16_t> keys_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
@@ -15740,9 +15863,10 @@ struct tiled_plane {
     light_plane plane;
     plane_tiles tiles;
     float error = 0;  ///< of coordinates on the plane
-    std::vector<plane_caster> casters;
-    glm::dvec2 scale{};                     ///< tiles per unit
-    std::vector<std::uint32_t> occupant{};  ///< by tile: the only caster that touches it, or one of the constants
+    insonify::detail::dynamic_array<plane_caster> casters;
+    glm::dvec2 scale{};  ///< tiles per unit
+    insonify::detail::dynamic_array<std::uint32_t>
+        occupant{};  ///< by tile: the only caster that touches it, or one of the constants
 
     /// The tile that contains a point of the plane, or the nearest one.
     std::size_t tile_of(const glm::dvec3& at) const {
@@ -15810,8 +15934,8 @@ class tiled_planes {
 
   private:
     std::optional<point_light> near_light_;
-    std::vector<tiled_plane> planes_;
-    std::vector<std::size_t> starts_{0};  ///< first tile of each plane, then their number
+    insonify::detail::dynamic_array<tiled_plane> planes_;
+    insonify::detail::dynamic_array<std::size_t> starts_{0};  ///< first tile of each plane, then their number
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
@@ -15869,8 +15993,8 @@ class points_by_tile {
     using receivers_of = insonify::detail::uninitialized_array<receiver>;
     /// A run of batches.
     struct run {
-        std::size_t first = 0;              ///< of its points among all
-        std::vector<std::uint32_t> starts;  ///< of tiles, from there; empty if no tile has a caster
+        std::size_t first = 0;                                  ///< of its points among all
+        insonify::detail::dynamic_array<std::uint32_t> starts;  ///< of tiles, from there; empty if no tile has a caster
 
         std::span<const receiver> of(const receivers_of& all, std::size_t tile) const {
             if (starts.empty()) return {};
@@ -15910,12 +16034,12 @@ class points_by_tile {
             }
         }
         for (std::size_t tile = 0; tile < tiles; ++tile) out.starts[tile + 1] += out.starts[tile];
-        std::vector<std::uint32_t> next(out.starts.begin(), out.starts.end() - 1);
+        insonify::detail::dynamic_array<std::uint32_t> next = out.starts;
         for (std::size_t i = 0; i < count; ++i) sorted_[out.first + next[keys[i]]++] = found[i];
     }
 
     const tiled_planes& planes_;
-    std::vector<run> runs_;
+    insonify::detail::dynamic_array<run> runs_;
     receivers_of sorted_;
 };
 
@@ -15952,7 +16076,7 @@ class exact_occlusion {
     ///         point light that is not finite
     template <executor E>
     exact_occlusion(std::span<const caster> casters, const any_light& light, const point_bounds& where, E& ex)
-        : casters_(casters.begin(), casters.end()),
+        : casters_(casters),
           level_(where.level),
           rays_(light, reach_of(where.box)),
           planes_(light),
@@ -15992,7 +16116,7 @@ class exact_occlusion {
         insonify::detail::uninitialized_array<decision> answers(c.mesh.triangles.size(),
                                                                 insonify::detail::memory_of(ex));
         // Triangles that other casters may shade are left to the test of points.
-        std::vector<std::pair<glm::dvec2, glm::dvec2>> shared;
+        insonify::detail::dynamic_array<std::pair<glm::dvec2, glm::dvec2>> shared;
         const detail::tiled_plane& plane = planes_.front();
         const detail::ray_feet feet(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
@@ -16013,8 +16137,8 @@ class exact_occlusion {
     /// See occlusion.
     void test(const points& at, const results& into) const {
         serial_executor serial;
-        std::vector<points> parts;
-        std::vector<results> into_parts;
+        insonify::detail::dynamic_array<points> parts;
+        insonify::detail::dynamic_array<results> into_parts;
         for (std::size_t first = 0; first < at.size(); first += max_batch) {
             const std::size_t count = (std::min)(max_batch, at.size() - first);
             parts.push_back({at.x.subspan(first, count), at.y.subspan(first, count), at.z.subspan(first, count),
@@ -16123,7 +16247,7 @@ class exact_occlusion {
         for (std::size_t i = 0; i < casters_.size(); ++i) {
             const caster& c = casters_[i];
             if (grids_[i]) {
-                state.casters.emplace_back();
+                state.casters.push_back({});
                 const auto [first, last] = state.tiles_under(c);
                 for (int row = first.y; row <= last.y; ++row)
                     for (int column = first.x; column <= last.x; ++column)
@@ -16131,7 +16255,8 @@ class exact_occlusion {
                 continue;
             }
             insonify::detail::require_indices(c.mesh, ex);
-            const auto& built = state.casters.emplace_back(c, plane, tiles, min_depth, level_, ex);
+            state.casters.push_back({c, plane, tiles, min_depth, level_, ex});
+            const detail::plane_caster& built = state.casters.back();
             for (std::size_t tile = 0; tile < tiles.count(); ++tile)
                 if (!built.bin(tile).empty()) state.occupy(tile, i);
         }
@@ -16182,11 +16307,12 @@ class exact_occlusion {
         return (numeric::determinant(c.placement.linear) < 0) != state.plane.is_mirrored();
     }
 
-    std::vector<caster> casters_;
+    insonify::detail::dynamic_array<caster> casters_;
     isa level_;
     detail::light_rays rays_;
     detail::tiled_planes planes_;
-    std::vector<std::optional<detail::grid_caster>> grids_;  ///< of the casters, under parallel light
+    insonify::detail::dynamic_array<std::optional<detail::grid_caster>>
+        grids_;  ///< of the casters, under parallel light
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -16651,7 +16777,7 @@ void tessellate_into(Mesh& result, const heightfield& field, E& ex, glm::ivec2 f
     result.normals.resize(heights.size());
 
     // Write the vertices and count the triangles of each row of cells.
-    std::vector<std::size_t> first_triangle(height, 0);
+    insonify::detail::dynamic_array<std::size_t> first_triangle(height, 0);
     ex.bulk(height, [&](std::size_t j) {
         row_normals(field, static_cast<int>(j), &result.normals[j * width]).compute();
         for (std::size_t i = 0; i < width; ++i) result.positions[j * width + i] = position_at(field, i, j, first);
@@ -16910,7 +17036,7 @@ class undecided_light {
     tile_grid tiles_{0, 0, 0};
     pixel_marks marks_;
     uninitialized_array<undecided_pixel> pixels_;
-    std::vector<list> lists_;  ///< by tile
+    dynamic_array<list> lists_;  ///< by tile
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -17651,7 +17777,7 @@ inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// The object that a visibility buffer's id belongs to.
-inline const surface& surface_of(const std::vector<surface>& surfaces, std::uint32_t id) {
+inline const surface& surface_of(const dynamic_array<surface>& surfaces, std::uint32_t id) {
     const auto after = std::upper_bound(surfaces.begin(), surfaces.end(), id,
                                         [](std::uint32_t i, const surface& s) { return i < s.first_id; });
     return *(after - 1);
@@ -17668,7 +17794,7 @@ class shadow_pass {
     };
 
     /// @param targets  casters numbered below this are targets
-    shadow_pass(const overhead_geometry& view, const std::vector<surface>& surfaces, const images& of,
+    shadow_pass(const overhead_geometry& view, const dynamic_array<surface>& surfaces, const images& of,
                 std::size_t targets, int tile, isa level)
         : view_(view),
           surfaces_(surfaces),
@@ -17678,7 +17804,7 @@ class shadow_pass {
           tile_pixels_(static_cast<std::size_t>(tile) * static_cast<std::size_t>(tile)),
           run_((std::min)(tiles_.run(), shadow::max_batch / tile_pixels_)),
           level_(level) {
-        for (const surface& s : surfaces) finders_.emplace_back(view, s);
+        for (const surface& s : surfaces) finders_.push_back({view, s});
     }
 
     /// Tests the points of every tile and adds the light that arrives. Occlusion that sees all points at once gets
@@ -17686,7 +17812,7 @@ class shadow_pass {
     template <class Occlusion, executor E>
     void cast(const Occlusion& occlusion, E& ex) {
         constexpr bool is_collective = shadow::collective_occlusion<Occlusion>;
-        std::vector<std::size_t> unknown(is_collective ? tiles_.count() : 0);  // points of each tile
+        dynamic_array<std::size_t> unknown(is_collective ? tiles_.count() : 0);  // points of each tile
         bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
             scratch room(surfaces_.size(), tile_pixels_);
             for (std::size_t i = first; i < last; ++i) {
@@ -17709,7 +17835,7 @@ class shadow_pass {
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
 
-    using shown_by_surface = std::vector<std::vector<shown_pixel>>;
+    using shown_by_surface = dynamic_array<dynamic_array<shown_pixel>>;
     /// Memory that the tiles of a run share.
     struct scratch {
         point_batch points;
@@ -17758,24 +17884,24 @@ class shadow_pass {
     /// pass would take memory for all points.
     /// @param unknown  number of points of each tile
     template <class Occlusion, executor E>
-    void test_together(const Occlusion& occlusion, const std::vector<std::size_t>& unknown, E& ex) {
-        std::vector<std::size_t> starts{0};  // of the points of each run of tiles
+    void test_together(const Occlusion& occlusion, const dynamic_array<std::size_t>& unknown, E& ex) {
+        dynamic_array<std::size_t> starts{0};  // of the points of each run of tiles
         for (std::size_t i = 0; i < tiles_.count(); ++i) {
             if (i % run_ == 0) starts.push_back(starts.back());
             starts.back() += unknown[i];
         }
         point_batch all(starts.back(), memory_of(ex));
         light_arrays light(starts.back(), memory_of(ex));
-        std::vector<point_list> lists;
-        for (std::size_t i = 0; i + 1 < starts.size(); ++i) lists.emplace_back(all, starts[i], starts[i + 1]);
+        dynamic_array<point_list> lists;
+        for (std::size_t i = 0; i + 1 < starts.size(); ++i) lists.push_back({all, starts[i], starts[i + 1]});
         bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
             shown_by_surface shown(surfaces_.size());
             for (std::size_t i = first; i < last; ++i)
                 if (unknown[i] > 0) find_points(i, shown, lists[first / run_]);
         });
         const auto part = [&](std::size_t i) { return light.part(starts[i], lists[i].size()); };
-        std::vector<shadow::points> at;
-        std::vector<shadow::results> into;
+        dynamic_array<shadow::points> at;
+        dynamic_array<shadow::results> into;
         for (std::size_t i = 0; i < lists.size(); ++i)
             for_each_batch(lists[i], part(i), targets_, [&](const shadow::points& p, const shadow::results& s) {
                 at.push_back(p);
@@ -17808,8 +17934,8 @@ class shadow_pass {
     }
 
     const overhead_geometry& view_;
-    const std::vector<surface>& surfaces_;
-    std::vector<point_finder> finders_;  ///< of the surfaces
+    const dynamic_array<surface>& surfaces_;
+    dynamic_array<point_finder> finders_;  ///< of the surfaces
     images images_;
     std::uint32_t targets_;
     tile_grid tiles_;
@@ -17857,7 +17983,7 @@ class overhead_painter {
     frame<Labels> paint(E& ex) {
         place_objects();
         if constexpr (casts) {
-            std::vector<shadow::caster> casters;
+            dynamic_array<shadow::caster> casters;
             for (const placed_mesh& t : targets_) casters.push_back(as_caster(view_, t));
             if (has_bottom()) casters.push_back(as_caster(view_, bottom_in_rig_));
             const shadow::point_bounds bounds{receivers(), view_.ground_sampling(), options_.level};
@@ -17945,7 +18071,8 @@ class overhead_painter {
         std::uint64_t ids = 0;
         const auto add = [&](const placed_mesh& placed, std::uint32_t caster, std::uint16_t instance,
                              std::uint8_t seabed, const material& m) {
-            surface& s = surfaces_.emplace_back();
+            surfaces_.push_back({});
+            surface& s = surfaces_.back();
             s.mesh = placed.shape;
             s.to_rig = placed.to_rig;
             s.first_id = static_cast<std::uint32_t>(ids);
@@ -17974,8 +18101,8 @@ class overhead_painter {
 
     /// Decides whole triangles before they are drawn, lit or dark. The surfaces point to the results.
     template <class Occlusion, executor E>
-    std::vector<uninitialized_array<shadow::decision>> settle_triangles(const Occlusion& occlusion, E& ex) {
-        std::vector<uninitialized_array<shadow::decision>> known;
+    dynamic_array<uninitialized_array<shadow::decision>> settle_triangles(const Occlusion& occlusion, E& ex) {
+        dynamic_array<uninitialized_array<shadow::decision>> known;
         if constexpr (shadow::triangle_occlusion<Occlusion>)
             for (surface& s : surfaces_) {
                 // A mesh much finer than the picture has more triangles than points to test.
@@ -18045,8 +18172,8 @@ class overhead_painter {
     frame<Labels> out_;
     sampled_bottom bottom_;
     placed_mesh bottom_in_rig_;
-    std::vector<surface> surfaces_;
-    std::vector<placed_mesh> targets_;
+    dynamic_array<surface> surfaces_;
+    dynamic_array<placed_mesh> targets_;
 };
 
 template <class Shadow, class Labels, class Law, depth_precision Depth>
@@ -18832,7 +18959,7 @@ inline void clip_ears(const flat_polygon& polygon, std::uint32_t count, std::vec
         std::uint32_t previous, next;
         bool reflex, ear;
     };
-    std::vector<corner> ring(count);
+    dynamic_array<corner> ring(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         ring[i] = {(i + count - 1) % count, (i + 1) % count, false, false};
         ring[i].reflex = polygon.turn(ring[i].previous, i, ring[i].next) < 0;
@@ -22086,7 +22213,7 @@ class mixed_sampler {
         detail::border edge;
     };
     any_sampler base_;
-    std::vector<prepared_layer> layers_;
+    insonify::detail::dynamic_array<prepared_layer> layers_;
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -22558,7 +22685,8 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
     const lattice_coordinate v(line.y / step);
     const std::int64_t first = numeric::floor_to_int(line.x(0) / step) - 7;
     const std::int64_t last = numeric::floor_to_int(line.x(heights.size() - 1) / step) + 8;
-    std::vector<float> nodes(static_cast<std::size_t>(last - first + 1)), column(nodes.size(), 0.0f);
+    insonify::detail::dynamic_array<float> nodes(static_cast<std::size_t>(last - first + 1)),
+        column(nodes.size(), 0.0f);
     const auto up = spline_weights(v.fraction);
     for (std::size_t j = 0; j < 16; ++j) {
         const double y = step * static_cast<double>(v.cell - 7 + static_cast<std::int64_t>(j));
@@ -22675,7 +22803,7 @@ class sculpt_sampler {
         detail::ground_rect bounds;
     };
     any_sampler ground_;
-    std::vector<bounded_edit> edits_;
+    insonify::detail::dynamic_array<bounded_edit> edits_;
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -22745,7 +22873,7 @@ inline map_extent merge(const map_extent& a, const map_extent& b) {
 template <executor_argument E = serial_executor>
 map_extent extent_of(const mesh_view& m, const affine& to_world, const light_frame& frame, E&& ex = {}) {
     constexpr std::size_t grain = 16384;
-    std::vector<map_extent> parts((m.positions.size() + grain - 1) / grain);
+    insonify::detail::dynamic_array<map_extent> parts((m.positions.size() + grain - 1) / grain);
     bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
         map_extent part;
         for (std::size_t i = first; i < last; ++i) {
@@ -23039,13 +23167,14 @@ class map_occlusion {
     template <executor E>
     map_occlusion(const map_layout& layout, std::span<const caster> casters, const any_light& light,
                   const point_bounds& bounds, E& ex)
-        : casters_(casters.begin(), casters.end()), frame_(parallel(light)), radius_(layout.radius) {
+        : casters_(casters), frame_(parallel(light)), radius_(layout.radius) {
         validate(layout);
         const map_extent receivers = extent_of(bounds.box, {}, frame_);
         const double texel = spacing_of(bounds, receivers) / static_cast<double>(layout.texels_per_pixel);
         for (const caster& c : casters_) {
             const map_extent own = extent_of(c.box, c.placement, frame_).clipped_to(receivers);
-            maps_.emplace_back(frame_, own, texel, layout.largest).cast(c.mesh, c.placement, ex);
+            maps_.push_back({frame_, own, texel, layout.largest});
+            maps_.back().cast(c.mesh, c.placement, ex);
         }
     }
 
@@ -23091,10 +23220,10 @@ class map_occlusion {
         return longer > 0 ? longer / 2048 : 1;
     }
 
-    std::vector<caster> casters_;
+    insonify::detail::dynamic_array<caster> casters_;
     light_frame frame_;
     int radius_;
-    std::vector<height_map> maps_;
+    insonify::detail::dynamic_array<height_map> maps_;
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -23159,7 +23288,7 @@ class penumbra_occlusion {
     template <executor E>
     penumbra_occlusion(double radius, int samples, std::span<const caster> casters, const any_light& light,
                        const point_bounds& bounds, E& ex)
-        : casters_(casters.begin(), casters.end()), samples_(samples) {
+        : casters_(casters), samples_(samples) {
         for (int i = 0; i < samples; ++i) {
             const double share = i == 0 ? 0 : numeric::square_root((i + 0.5) / samples);
             const auto [sine, cosine] = numeric::sin_cos_turns(0.6180339887498949 * i);
@@ -23189,7 +23318,7 @@ class penumbra_occlusion {
         for (const points& some : at) count += some.size();
         insonify::detail::uninitialized_array<float> lit(count);
         insonify::detail::uninitialized_array<std::uint32_t> blocking(count);
-        std::vector<results> one;
+        insonify::detail::dynamic_array<results> one;
         count = 0;
         for (const points& some : at) {
             one.push_back(
@@ -23258,9 +23387,9 @@ class penumbra_occlusion {
         for (float& lit : into.lit) lit /= static_cast<float>(samples_);
     }
 
-    std::vector<caster> casters_;
+    insonify::detail::dynamic_array<caster> casters_;
     int samples_;
-    std::vector<sample> lights_;  ///< the middle first
+    insonify::detail::dynamic_array<sample> lights_;  ///< the middle first
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -23950,7 +24079,7 @@ class bottom_tiles {
         const fan_steps steps(from, reach, side());
         lay_out(pings, steps);
         mark(pings, steps);
-        const std::vector<tile_run> runs = number_marked();
+        const dynamic_array<tile_run> runs = number_marked();
         const std::size_t tiles = runs.empty() ? 0 : std::size_t{runs.back().slot} + runs.back().count;
         vertices_.reset(new bottom_vertex[tiles * tile_size]);
         ex.bulk(runs.size(), [&](std::size_t i) { sample(runs[i]); });
@@ -24072,8 +24201,8 @@ class bottom_tiles {
 
     /// Numbers the marked tiles.
     /// @returns their runs, in the order of the numbers
-    std::vector<tile_run> number_marked() {
-        std::vector<tile_run> runs;
+    dynamic_array<tile_run> number_marked() {
+        dynamic_array<tile_run> runs;
         std::uint32_t next = 0;
         for (std::int64_t y = 0; y < rows_; ++y)
             for (std::int64_t x = 0; x < columns_; ++x) {
@@ -24093,8 +24222,8 @@ class bottom_tiles {
     /// Samples a run, with a margin of one vertex for the slopes.
     void sample(const tile_run& run) const {
         const std::size_t width = run.count * cells + 3, height = stride + 2;
-        std::vector<float> heights(width * height);
-        std::vector<seabed::type> types(width * height);
+        dynamic_array<float> heights(width * height);
+        dynamic_array<seabed::type> types(width * height);
         for (std::size_t j = 0; j < height; ++j) {
             const auto vertex = [&](std::int64_t tile, std::size_t i) {
                 return static_cast<double>(tile * cells + static_cast<std::int64_t>(i) - 1) * spacing_;
@@ -24124,7 +24253,7 @@ class bottom_tiles {
     seabed::height_range range_;
     double spacing_, scale_;
     std::int64_t first_x_ = 0, first_y_ = 0, columns_ = 0, rows_ = 0;
-    std::vector<std::uint32_t> slots_;
+    dynamic_array<std::uint32_t> slots_;
     std::unique_ptr<bottom_vertex[]> vertices_;
     std::uint64_t sampled_ = 0;
 };
@@ -24205,7 +24334,7 @@ class bottom_profile {
     double step_;
     std::size_t first_, end_;
     double lowest_ = 0, highest_ = 0;
-    std::vector<bottom_point> points_;
+    dynamic_array<bottom_point> points_;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -24263,8 +24392,8 @@ class label_tally {
         std::uint32_t next;
         std::uint16_t label;
     };
-    std::vector<std::uint32_t> heads_;
-    std::vector<entry> entries_;
+    dynamic_array<std::uint32_t> heads_;
+    dynamic_array<entry> entries_;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -24340,7 +24469,7 @@ class echo_bins {
     }
 
   private:
-    std::vector<echo_bin> bins_;
+    dynamic_array<echo_bin> bins_;
     label_tally echoing_, casting_, types_;
 };
 
@@ -24465,7 +24594,7 @@ class ping_fan {
 
   private:
     fan_shape shape_{0, 0, 0};
-    std::vector<ray> rays_;
+    dynamic_array<ray> rays_;
     double spacing_ = 1, first_ = 0;                          ///< on level ground: step of the tangent, first number
     double wall_first_ = 0, wall_from_ = 0, wall_angle_ = 1;  ///< beyond: first number, first angle, step
 };
@@ -24552,7 +24681,7 @@ class plane_tree {
     plane_tree() = default;
     /// @param m  its indices have positions; triangles with corners that are not finite are left out
     explicit plane_tree(const mesh_view& m) : triangles_(m.triangles.size()) {
-        std::vector<box> level((triangles_ + branching - 1) / branching);
+        dynamic_array<box> level((triangles_ + branching - 1) / branching);
         for (std::size_t i = 0; i < triangles_; ++i) {
             const glm::uvec3& t = m.triangles[i];
             glm::vec3 sum(0);
@@ -24562,8 +24691,8 @@ class plane_tree {
         }
         levels_.push_back(std::move(level));
         while (levels_.back().size() > 1) {
-            const std::vector<box>& below = levels_.back();
-            std::vector<box> above((below.size() + branching - 1) / branching);
+            const dynamic_array<box>& below = levels_.back();
+            dynamic_array<box> above((below.size() + branching - 1) / branching);
             for (std::size_t i = 0; i < below.size(); ++i) {
                 above[i / branching].include(below[i].low);
                 above[i / branching].include(below[i].high);
@@ -24613,7 +24742,7 @@ class plane_tree {
     }
 
     std::size_t triangles_ = 0;
-    std::vector<std::vector<box>> levels_;
+    dynamic_array<dynamic_array<box>> levels_;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -24724,13 +24853,13 @@ class sliced_target {
 };
 
 /// The targets of a scene; those with the same mesh share its tree.
-inline std::vector<sliced_target> sliced_targets(const scene& s) {
-    std::vector<sliced_target> all;
+inline dynamic_array<sliced_target> sliced_targets(const scene& s) {
+    dynamic_array<sliced_target> all;
     std::map<const mesh*, std::shared_ptr<const plane_tree>> trees;
     for (const target& t : s.targets) {
         std::shared_ptr<const plane_tree>& tree = trees[&*t.shape];
         if (tree == nullptr) tree = std::make_shared<const plane_tree>(t.shape);
-        all.emplace_back(t, tree);
+        all.push_back({t, tree});
     }
     return all;
 }
@@ -24960,13 +25089,13 @@ class target_hits {
     static constexpr std::size_t max_parts = 64;
 
     const ping_fan* fan_ = nullptr;
-    std::vector<segment> segments_;
-    std::vector<part> partial_;
-    std::vector<candidate> nearest_;  ///< by ray: the nearest segment that covers all of its width
-    std::vector<target_hit> hits_;
-    std::vector<std::uint32_t> first_;  ///< by ray: index of its first hit
-    std::vector<occluder_of_ray> occluders_;
-    std::vector<double> ends_;
+    dynamic_array<segment> segments_;
+    dynamic_array<part> partial_;
+    dynamic_array<candidate> nearest_;  ///< by ray: the nearest segment that covers all of its width
+    dynamic_array<target_hit> hits_;
+    dynamic_array<std::uint32_t> first_;  ///< by ray: index of its first hit
+    dynamic_array<occluder_of_ray> occluders_;
+    dynamic_array<double> ends_;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -25218,7 +25347,7 @@ class ping_tracer {
     double top_ = -1e30, foot_ = 1e30;         ///< of all targets
     std::array<double, 3> attitude_{0, 1, 1};  ///< sine and cosine of the roll, cosine of the pitch
     ping_fan fan_;
-    std::vector<float> ray_power_;
+    dynamic_array<float> ray_power_;
     target_hits hits_;
     bool has_targets_ = false;
     echo_bins bins_;
@@ -25299,16 +25428,16 @@ class recorder {
         bottom_tiles bottom(scene_.seabed, out_.stats.cell);
         const seabed::height_range relief = scene_.seabed.prepare().range();
         const double cell = out_.stats.cell;
-        std::vector<float> over_range;
+        dynamic_array<float> over_range;
         if (equation_.has_ranges())
             for (std::size_t b = 0; b < static_cast<std::size_t>(window_.bins); ++b)
                 over_range.push_back(static_cast<float>(
                     equation_.over_range(slant_of(b, static_cast<double>(window_.altitude)), spacing())));
         for (std::size_t start = 0; start < track_.size(); start += leg) {
             const std::size_t count = (std::min)(leg, track_.size() - start);
-            std::vector<ping_frame> frames;
+            dynamic_array<ping_frame> frames;
             frames.reserve(count);
-            for (std::size_t i = 0; i < count; ++i) frames.emplace_back(track_[start + i], window_.looks);
+            for (std::size_t i = 0; i < count; ++i) frames.push_back({track_[start + i], window_.looks});
             double begin = tracer::reach(window_, cell);
             for (const ping_frame& p : frames)
                 begin = (std::min)(begin, tracer::start(window_, cell, relief, p, targets_));
@@ -25346,7 +25475,7 @@ class recorder {
     /// Convolves a row with a pulse of `length` bins. Values beyond its ends are those at the ends.
     static void convolve_pulse(std::span<float> row, double length) {
         if (!(length > 1)) return;
-        const std::vector<float> source(row.begin(), row.end());
+        const dynamic_array<float> source(row);
         const std::int64_t reach = -numeric::floor_to_int(-0.5 * (length - 1)),
                            bins = static_cast<std::int64_t>(row.size());
         std::fill(row.begin(), row.end(), 0.0f);
@@ -25394,7 +25523,7 @@ class recorder {
     void amplify(executor_ref ex) {
         const auto noise = static_cast<float>(equation_.noise());
         bulk_ranges(ex, track_.size(), 64, [&](std::size_t from, std::size_t to) {
-            std::vector<float> gain;
+            dynamic_array<float> gain;
             double altitude = 0;
             for (std::size_t i = from; i < to; ++i) {
                 if (gain.empty() || track_[i].position.z != altitude) {
@@ -25418,7 +25547,7 @@ class recorder {
     const erased_options<Labels, Law>& options_;
     const equation_interface& equation_;
     bottom_materials materials_;
-    std::vector<sliced_target> targets_;
+    dynamic_array<sliced_target> targets_;
     frame<Labels> out_;
 };
 
@@ -25633,7 +25762,7 @@ class speckle_field {
         for (int i = 0; i < blurred.height(); ++i) row(first - reach + i, look, blurred.row(i));
         if (reach == 0) return blurred;
         image<float> field(static_cast<int>(2 * bins_), count);
-        std::vector<const float*> rows(static_cast<std::size_t>(2 * reach + 1));
+        dynamic_array<const float*> rows(static_cast<std::size_t>(2 * reach + 1));
         for (int i = 0; i < count; ++i) {
             for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = blurred.row(i + static_cast<int>(k)).data();
             dispatch(taps_across_rows{along_, rows, field.row(i).data(), 2 * bins_}, best_isa());
@@ -25646,7 +25775,7 @@ class speckle_field {
     void row(std::int64_t ping, std::uint32_t look, std::span<float> out) const {
         const std::size_t reach = across_.size() - 1, margin = reach + (reach & 1);
         const std::size_t blocks = (bins_ + 2 * margin + 1) / 2;
-        std::vector<float> white(4 * (blocks + speckle_draw_kernel::max_lanes));
+        dynamic_array<float> white(4 * (blocks + speckle_draw_kernel::max_lanes));
         const std::uint32_t first = 0u - static_cast<std::uint32_t>(margin);
         dispatch(speckle_draw_kernel{noise_.key(), ping_noise::counter(ping, first, look), white.data(), blocks},
                  best_isa());
@@ -25655,7 +25784,7 @@ class speckle_field {
 
     ping_noise noise_;
     std::size_t bins_;
-    std::vector<float> across_, along_;
+    dynamic_array<float> across_, along_;
 };
 
 /// The texture of the K-distribution: gamma-distributed at the nodes of a lattice. A bin takes the value of one of the
@@ -26200,14 +26329,14 @@ class scene_occlusion {
         occlusion_results all{std::vector<float>(at.size()), std::vector<std::uint16_t>(at.size())};
         bulk_ranges(ex, at.size(), max_points, [&](std::size_t first, std::size_t last) {
             const std::size_t count = last - first;
-            std::vector<double> x(count), y(count), z(count);
+            detail::dynamic_array<double> x(count), y(count), z(count);
             for (std::size_t i = 0; i < count; ++i) {
                 x[i] = at[first + i].x - centre_.x;
                 y[i] = at[first + i].y - centre_.y;
                 z[i] = at[first + i].z;
             }
-            const std::vector<std::uint32_t> none(count, shadow::invalid_id);
-            std::vector<std::uint32_t> caster(count);
+            const detail::dynamic_array<std::uint32_t> none(count, shadow::invalid_id);
+            detail::dynamic_array<std::uint32_t> caster(count);
             built_.test(shadow::points{x, y, z, none, none},
                         shadow::results{std::span(all.lit).subspan(first, count), caster});
             for (std::size_t i = 0; i < count; ++i)
@@ -26260,16 +26389,16 @@ class scene_occlusion {
         return within.cell > 0 ? within.cell : longer_side(within) / 512;
     }
 
-    std::vector<shadow::caster> casters() const {
-        std::vector<shadow::caster> all;
+    detail::dynamic_array<shadow::caster> casters() const {
+        detail::dynamic_array<shadow::caster> all;
         for (const placed& p : shapes_) all.push_back({p.shape, p.placement, p.shape.box()});
         return all;
     }
 
     template <executor E>
-    std::vector<placed> shapes_of(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
-                                  double radius, E& ex) const {
-        std::vector<placed> all;
+    detail::dynamic_array<placed> shapes_of(const scene& s, const shadow::any_light& light,
+                                            const occlusion_bounds& within, double radius, E& ex) const {
+        detail::dynamic_array<placed> all;
         for (const target& t : s.targets) all.push_back({t.shape, around_centre(to_world(t.placement))});
         if (s.seabed.empty()) return all;
         seabed::detail::require_finite(s.seabed.prepare().range());
@@ -26309,7 +26438,7 @@ class scene_occlusion {
     }
 
     glm::dvec3 centre_;
-    std::vector<placed> shapes_;  ///< the targets, then the seabed
+    detail::dynamic_array<placed> shapes_;  ///< the targets, then the seabed
     std::size_t targets_;
     Occlusion built_;
 };
@@ -26417,7 +26546,7 @@ class column_gain {
     }
 
   private:
-    std::vector<float> factors_;
+    dynamic_array<float> factors_;
 };
 
 /// Pass of a ping_banding.
@@ -26708,7 +26837,7 @@ class water_law {
 
     Water w_;
     philox_key key_;
-    std::vector<float> steady_;
+    dynamic_array<float> steady_;
     int row_ = -1;
     double begins_ = 0;
 };

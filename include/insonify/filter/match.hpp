@@ -5,6 +5,7 @@
 // with linear interpolation between values that are present.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/detail/portable.hpp>
 #include <insonify/core/detail/radix_sort.hpp>
 #include <insonify/core/image.hpp>
@@ -38,7 +39,7 @@ INSONIFY_FUNCTION distribution distribution_of(image_view<const float> source);
 
 #if INSONIFY_BODIES
 INSONIFY_FUNCTION distribution distribution_of(image_view<const float> source) {
-    std::vector<std::uint32_t> keys;
+    detail::dynamic_array<std::uint32_t> keys;
     keys.reserve(source.size());
     for (int y = 0; y < source.height(); ++y) {
         for (const float pixel : source.row(y)) {
@@ -85,11 +86,11 @@ distribution distribution_of(const image<Pixel>& source) {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// The value of `reference` at the rank of each value of `source`.
-inline std::vector<float> values_at_ranks(const distribution& source, const distribution& reference) {
+inline dynamic_array<float> values_at_ranks(const distribution& source, const distribution& reference) {
     const auto total = static_cast<double>(source.total());
     const auto reference_total = static_cast<double>(reference.total());
     const auto share = [&](std::size_t i) { return static_cast<double>(reference.cumulative[i]) / reference_total; };
-    std::vector<float> result(source.values.size());
+    dynamic_array<float> result(source.values.size());
     std::size_t above = 0;
     for (std::size_t i = 0; i < result.size(); ++i) {
         const double rank = static_cast<double>(source.cumulative[i]) / total;
@@ -147,9 +148,9 @@ class rank_pass {
 
   private:
     struct table {
-        std::vector<float> values;          // of the source, rising
-        std::vector<float> ranked;          // the reference's values at their ranks
-        std::vector<std::uint32_t> starts;  // where each bucket of values begins
+        std::vector<float> values;            // of the source, rising
+        dynamic_array<float> ranked;          // the reference's values at their ranks
+        dynamic_array<std::uint32_t> starts;  // where each bucket of values begins
         double scale = 0;
 
         std::size_t bucket(float value) const {
@@ -196,9 +197,9 @@ class match_histogram {
     template <pixel_code Code, executor_argument E = serial_executor>
     INSONIFY_TAGGED detail::level_map<Code> pass(image_view<const Code> source, E&& ex = {}) const {
         const distribution codes = distribution_of(source, ex);
-        const std::vector<float> ranked =
-            codes.values.empty() ? std::vector<float>{} : detail::values_at_ranks(codes, *reference_);
-        std::vector<Code> values(static_cast<std::size_t>((std::numeric_limits<Code>::max)()) + 1);
+        const detail::dynamic_array<float> ranked =
+            codes.values.empty() ? detail::dynamic_array<float>{} : detail::values_at_ranks(codes, *reference_);
+        detail::dynamic_array<Code> values(static_cast<std::size_t>((std::numeric_limits<Code>::max)()) + 1);
         for (std::size_t i = 0; i < ranked.size(); ++i)
             values[quantize<Code>(codes.values[i])] = quantize<Code>(ranked[i]);
         return detail::level_map<Code>(std::move(values));

@@ -1,6 +1,7 @@
 // Axis-aligned boxes, for fitting cameras and culling.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/executor.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/core/simd/dispatch.hpp>
@@ -114,7 +115,7 @@ inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
 template <executor_argument E = serial_executor>
 bounding_box bounds(const mesh_view& m, E&& ex = {}) {
     constexpr std::size_t grain = 65536;
-    std::vector<bounding_box> parts((m.positions.size() + grain - 1) / grain);
+    detail::dynamic_array<bounding_box> parts((m.positions.size() + grain - 1) / grain);
     bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
         constexpr float infinity = std::numeric_limits<float>::infinity();
         glm::vec3 lower(infinity), upper(-infinity);

@@ -1,10 +1,10 @@
 // Cones, whole and truncated.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/geometry/revolution.hpp>
 
 #include <algorithm>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -37,11 +37,14 @@ inline mesh to_mesh(const cone& shape) {
     const double slant = numeric::square_root(height * height + (radius - top) * (radius - top));
     const double outwards = height / slant;
     const double upwards = (radius - top) / slant;
-    std::vector<outline_point> outline = {{0, -height / 2, 0, -1},
-                                          {radius, -height / 2, 0, -1},
-                                          {radius, -height / 2, outwards, upwards},
-                                          {top, height / 2, outwards, upwards}};
-    if (top > 0) outline.insert(outline.end(), {{top, height / 2, 0, 1}, {0, height / 2, 0, 1}});
+    detail::dynamic_array<outline_point> outline = {{0, -height / 2, 0, -1},
+                                                    {radius, -height / 2, 0, -1},
+                                                    {radius, -height / 2, outwards, upwards},
+                                                    {top, height / 2, outwards, upwards}};
+    if (top > 0) {
+        outline.push_back({top, height / 2, 0, 1});
+        outline.push_back({0, height / 2, 0, 1});
+    }
     return revolve(outline, shape.segments);
 }
 

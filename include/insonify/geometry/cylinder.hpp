@@ -1,10 +1,10 @@
 // Cylinders lying on their side, with flat or with rounded ends.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/geometry/revolution.hpp>
 
 #include <array>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -53,7 +53,7 @@ inline mesh to_mesh(const capsule& shape) {
     const auto radius = static_cast<double>(shape.radius);
     const double straight = 0.5 * static_cast<double>(shape.length) - radius;
     const int steps = (shape.segments + 3) / 4;
-    std::vector<outline_point> outline;
+    detail::dynamic_array<outline_point> outline;
     detail::append_arc(outline, radius, -straight, 0.0, 0.25, steps);
     detail::append_arc(outline, radius, straight, 0.25, 0.5, steps);
     return revolve(outline, shape.segments, axis::x);

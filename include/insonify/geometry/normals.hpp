@@ -4,6 +4,7 @@
 // Tools 3(1), 1998.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/geometry/mesh.hpp>
@@ -27,7 +28,7 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input if an index has no position
 inline std::vector<glm::vec3> smooth_normals(const mesh& m) {
     validate(m);
-    std::vector<glm::dvec3> sums(m.positions.size(), glm::dvec3(0));
+    detail::dynamic_array<glm::dvec3> sums(m.positions.size(), glm::dvec3(0));
     for (const glm::uvec3& t : m.triangles) {
         const glm::dvec3 corners[3] = {glm::dvec3(m.positions[t.x]), glm::dvec3(m.positions[t.y]),
                                        glm::dvec3(m.positions[t.z])};

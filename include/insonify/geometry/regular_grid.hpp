@@ -2,6 +2,7 @@
 // that callers need no flag and a wrong flag cannot change a result.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/executor.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/core/simd/dispatch.hpp>
@@ -12,7 +13,6 @@
 #include <atomic>
 #include <cstddef>
 #include <optional>
-#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -141,7 +141,7 @@ std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, dou
 
     std::atomic<bool> differs = false;
     constexpr std::size_t grain = 16;
-    std::vector<double> farthest((rows + grain - 1) / grain, 0);  // squared, of the vertices of some rows
+    detail::dynamic_array<double> farthest((rows + grain - 1) / grain, 0);  // squared, of the vertices of some rows
     bulk_ranges(ex, rows, grain, [&](std::size_t first, std::size_t last) {
         for (std::size_t j = first; j < last && !differs; ++j) {
             const glm::dvec2 start = grid.origin + static_cast<double>(j) * grid.up;

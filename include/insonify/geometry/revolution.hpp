@@ -1,13 +1,13 @@
 // Surfaces of revolution: builds cylinders, cones, spheres, and anything else that a lathe can turn.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/geometry/mesh.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -54,7 +54,7 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// Appends an arc of a circle centred on the axis, `steps` + 1 points from `first` to `last`: turns, counted from the
 /// lowest point (0) over the equator (1/4) to the highest (1/2).
-inline void append_arc(std::vector<outline_point>& outline, double radius, double centre, double first, double last,
+inline void append_arc(dynamic_array<outline_point>& outline, double radius, double centre, double first, double last,
                        int steps) {
     for (int i = 0; i <= steps; ++i) {
         const auto [sine, cosine] = numeric::sin_cos_turns(first + (last - first) * i / steps);
@@ -125,7 +125,7 @@ INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segme
         out.normals.push_back(turned(p.normal_radius, p.normal_height, angle));
     };
 
-    std::vector<numeric::sine_cosine> angles(count), half_angles(count);
+    detail::dynamic_array<numeric::sine_cosine> angles(count), half_angles(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         angles[i] = numeric::sin_cos_turns(i / static_cast<double>(segments));
         half_angles[i] = numeric::sin_cos_turns((i + 0.5) / segments);

@@ -90,7 +90,7 @@ inline constexpr bool is_primitive = is_among<Shape, cube, cylinder, capsule, co
 class shared_mesh {
   public:
     /// No triangles.
-    shared_mesh() : facts_(std::make_shared<const detail::mesh_facts>()) {}
+    shared_mesh() : facts_(std::make_shared<detail::mesh_facts>()) {}
     /// @throws invalid_input for indices or normals that don't match the positions
     INSONIFY_MEMBER shared_mesh(mesh m) : facts_(detail::facts_of(std::move(m))) {}
     /// The mesh of a shape with a `to_mesh`. Primitives skip the analysis, because their type tells its results; a

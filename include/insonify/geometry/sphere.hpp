@@ -1,12 +1,12 @@
 // Spheres and hemispheres, which `aspect` makes ellipsoids: boulders, floats, half-buried balls.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/geometry/revolution.hpp>
 #include <insonify/geometry/transform.hpp>
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -38,7 +38,7 @@ float longest_semi_axis(const Round& shape) {
 }
 
 /// Turns an outline about z and stretches the result with its normals.
-inline mesh stretched_round(const std::vector<outline_point>& outline, const char* name, const glm::vec3& aspect,
+inline mesh stretched_round(const dynamic_array<outline_point>& outline, const char* name, const glm::vec3& aspect,
                             int segments) {
     mesh out = revolve(outline, segments);
     if (aspect == glm::vec3(1)) return out;
@@ -59,7 +59,7 @@ inline namespace INSONIFY_FLAGS {
 inline mesh to_mesh(const sphere& shape) {
     detail::require_positive("sphere.radius", shape.radius);
     detail::require_round_segments("sphere.segments", shape.segments);
-    std::vector<outline_point> outline;
+    detail::dynamic_array<outline_point> outline;
     detail::append_arc(outline, static_cast<double>(shape.radius), 0.0, 0.0, 0.5, (shape.segments + 1) / 2);
     return detail::stretched_round(outline, "sphere.aspect", shape.aspect, shape.segments);
 }
@@ -69,7 +69,7 @@ inline mesh to_mesh(const hemisphere& shape) {
     detail::require_positive("hemisphere.radius", shape.radius);
     detail::require_round_segments("hemisphere.segments", shape.segments);
     const auto radius = static_cast<double>(shape.radius);
-    std::vector<outline_point> outline = {{0, 0, 0, -1}, {radius, 0, 0, -1}};
+    detail::dynamic_array<outline_point> outline = {{0, 0, 0, -1}, {radius, 0, 0, -1}};
     detail::append_arc(outline, radius, 0.0, 0.25, 0.5, (shape.segments + 3) / 4);
     return detail::stretched_round(outline, "hemisphere.aspect", shape.aspect, shape.segments);
 }

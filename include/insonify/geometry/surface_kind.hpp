@@ -1,6 +1,7 @@
 // Classifies meshes as closed, heightfield or open, so that renderers can skip triangles where that changes no pixel.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/geometry/mesh.hpp>
 #if INSONIFY_BODIES
@@ -38,10 +39,10 @@ INSONIFY_FUNCTION surface_kind kind_of(const mesh& m);
 namespace detail::inline INSONIFY_FLAGS {
 
 /// Net directed edges of a mesh: those that triangles traverse more often in one direction than in the other.
-inline std::vector<std::pair<std::uint32_t, std::uint32_t>> unbalanced_edges(const mesh& m) {
+inline dynamic_array<std::pair<std::uint32_t, std::uint32_t>> unbalanced_edges(const mesh& m) {
     const std::vector<std::uint32_t> first = weld(m.positions);
     using edge = std::pair<std::uint32_t, std::uint32_t>;
-    std::vector<edge> edges;
+    dynamic_array<edge> edges;
     edges.reserve(3 * m.triangles.size());
     for (const glm::uvec3& t : m.triangles)
         for (int i = 0; i < 3; ++i) {
@@ -51,9 +52,9 @@ inline std::vector<std::pair<std::uint32_t, std::uint32_t>> unbalanced_edges(con
     // Counting sorts, by the higher vertex and then by the lower one, bring the edges between two vertices together.
     const auto lower = [](const edge& e) { return (std::min)(e.first, e.second); };
     const auto higher = [](const edge& e) { return (std::max)(e.first, e.second); };
-    std::vector<edge> sorted(edges.size());
+    dynamic_array<edge> sorted(edges.size());
     for (const bool by_lower : {false, true}) {
-        std::vector<std::uint32_t> starts(m.positions.size() + 1, 0);
+        dynamic_array<std::uint32_t> starts(m.positions.size() + 1, 0);
         const auto vertex = [&](const edge& e) { return by_lower ? lower(e) : higher(e); };
         for (const edge& e : edges) ++starts[vertex(e) + 1];
         for (std::size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
@@ -61,21 +62,21 @@ inline std::vector<std::pair<std::uint32_t, std::uint32_t>> unbalanced_edges(con
         edges.swap(sorted);
     }
 
-    std::vector<edge> open;
+    dynamic_array<edge> open;
     for (std::size_t i = 0; i < edges.size();) {
         const std::uint32_t low = lower(edges[i]), high = higher(edges[i]);
         std::int64_t balance = 0;
         for (; i < edges.size() && lower(edges[i]) == low && higher(edges[i]) == high; ++i)
             balance += edges[i].first == low ? 1 : -1;
-        for (; balance > 0; --balance) open.emplace_back(low, high);
-        for (; balance < 0; ++balance) open.emplace_back(high, low);
+        for (; balance > 0; --balance) open.push_back({low, high});
+        for (; balance < 0; ++balance) open.push_back({high, low});
     }
     return open;
 }
 
 /// Whether directed edges make one loop that goes once around a convex polygon, seen from above.
-inline bool is_convex_loop(const mesh& m, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& edges) {
-    std::vector<std::uint32_t> after(m.positions.size(), 0xFFFFFFFFu);
+inline bool is_convex_loop(const mesh& m, const dynamic_array<std::pair<std::uint32_t, std::uint32_t>>& edges) {
+    dynamic_array<std::uint32_t> after(m.positions.size(), 0xFFFFFFFFu);
     for (const auto& [from, to] : edges) {
         if (after[from] != 0xFFFFFFFFu) return false;
         after[from] = to;

@@ -1,6 +1,7 @@
 // Checks whether a mesh is closed and consistently oriented, as imported targets should be.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/detail/radix_sort.hpp>
 #include <insonify/core/linear.hpp>
 #include <insonify/geometry/mesh.hpp>
@@ -43,7 +44,7 @@ struct topology {
 /// For each position, the index of the first equal one; NaN equals nothing. Linear in the positions.
 inline std::vector<std::uint32_t> weld(const std::vector<glm::vec3>& positions) {
     std::vector<std::uint32_t> first(positions.size());
-    std::vector<detail::keyed> order;
+    detail::dynamic_array<detail::keyed> order;
     order.reserve(positions.size());
     // Adding 0 makes one value of both zeros.
     const auto bits = [&](std::uint32_t i, int axis) { return detail::ordered_bits(positions[i][axis] + 0.0f); };
@@ -70,14 +71,14 @@ inline topology inspect(const mesh& m) {
     const std::vector<std::uint32_t> first = weld(m.positions);
 
     // An edge's key has its lower vertex first; the number is the triangle's direction along it.
-    std::vector<detail::keyed> sides;
+    detail::dynamic_array<detail::keyed> sides;
     std::vector<bool> used(m.positions.size());
     std::vector<std::uint32_t> joined = first;  // union-find: a vertex of the same piece; the root is its id
     const auto piece_of = [&](std::uint32_t vertex) {
         while (joined[vertex] != vertex) vertex = joined[vertex] = joined[joined[vertex]];
         return vertex;
     };
-    std::vector<double> volume(m.positions.size());  // by piece, six times the enclosed volume
+    detail::dynamic_array<double> volume(m.positions.size());  // by piece, six times the enclosed volume
     sides.reserve(3 * m.triangles.size());
     for (const glm::uvec3& t : m.triangles) {
         const std::uint32_t corners[3] = {first[t.x], first[t.y], first[t.z]};

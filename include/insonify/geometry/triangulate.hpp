@@ -4,6 +4,7 @@
 // whether its two neighbours are ears, and no other: quadratic in all).
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/linear.hpp>
 
 #include <cstddef>
@@ -64,7 +65,7 @@ inline void clip_ears(const flat_polygon& polygon, std::uint32_t count, std::vec
         std::uint32_t previous, next;
         bool reflex, ear;
     };
-    std::vector<corner> ring(count);
+    dynamic_array<corner> ring(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         ring[i] = {(i + count - 1) % count, (i + 1) % count, false, false};
         ring[i].reflex = polygon.turn(ring[i].previous, i, ring[i].next) < 0;

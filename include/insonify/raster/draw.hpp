@@ -4,6 +4,7 @@
 // visibility (tile.hpp), and visible pixels are shaded (shade.hpp), all in parallel over chunks or tiles.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/raster/detail/shade.hpp>
 
 #include <bit>
@@ -43,7 +44,7 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& shader, image_view
     const float sign = options.keep == keep_depth::smaller ? 1.0f : -1.0f;
 
     const std::size_t run = tiles.run();
-    std::vector<std::uint64_t> shaded((tiles.count() + run - 1) / run, 0);
+    dynamic_array<std::uint64_t> shaded((tiles.count() + run - 1) / run, 0);
     bulk_ranges(ex, tiles.count(), run, [&](std::size_t first, std::size_t last) {
         tile_buffer<HasIds> buffer(options.tile);
         for (std::size_t tile = first; tile < last; ++tile) {

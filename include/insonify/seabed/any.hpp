@@ -1,7 +1,7 @@
 // Type-erased seabed: holds any model, the library's or a user's.
 //
-// The model is immutable and shared by copies. Evaluation takes one virtual call per row. There is no list of types, so
-// models that a program does not use are not compiled.
+// The model is immutable and shared by copies. Evaluation takes one indirect call per row. There is no list of types,
+// so models that a program does not use are not compiled.
 #pragma once
 
 #include <insonify/seabed/model.hpp>
@@ -15,33 +15,29 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-namespace detail {
-
-struct sampler_interface {
-    virtual ~sampler_interface() = default;
-    virtual void row(const scanline& line, std::span<float> heights, std::span<type> types) const = 0;
-    virtual height_range range() const = 0;
-};
-
-}  // namespace detail
-
 /// A prepared seabed of any model; shares ownership of the model.
 class any_sampler {
   public:
+    using row_function = void(const void* sampler, const scanline&, std::span<float> heights, std::span<type> types);
+
     any_sampler() = default;
-    INSONIFY_MEMBER explicit any_sampler(std::shared_ptr<const detail::sampler_interface> held)
-        : held_(std::move(held)) {}
+    /// @param evaluate  is called with the sampler
+    /// @param range     of the heights
+    INSONIFY_MEMBER any_sampler(std::shared_ptr<const void> sampler, row_function* evaluate, const height_range& range)
+        : held_(std::move(sampler)), evaluate_(evaluate), range_(range) {}
 
     INSONIFY_TAGGED void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
-        if (held_ != nullptr) return held_->row(line, heights, types);
+        if (held_ != nullptr) return evaluate_(held_.get(), line, heights, types);
         std::fill(heights.begin(), heights.end(), std::numeric_limits<float>::quiet_NaN());
         std::fill(types.begin(), types.end(), type::sand);
     }
     INSONIFY_TAGGED void row(const scanline& line, std::span<float> heights) const { row(line, heights, {}); }
-    INSONIFY_MEMBER height_range range() const { return held_ != nullptr ? held_->range() : height_range{}; }
+    INSONIFY_MEMBER height_range range() const { return range_; }
 
   private:
-    std::shared_ptr<const detail::sampler_interface> held_;
+    std::shared_ptr<const void> held_;
+    row_function* evaluate_ = nullptr;
+    height_range range_;
 };
 
 namespace detail {
@@ -63,22 +59,21 @@ struct model_interface {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-template <typed_sampler S>
-struct held_sampler final : sampler_interface {
-    S sampler;
-    std::shared_ptr<const void> owner;
-
-    held_sampler(S s, std::shared_ptr<const void> o) : sampler(std::move(s)), owner(std::move(o)) {}
-    void row(const scanline& line, std::span<float> heights, std::span<type> types) const override {
-        sampler.row(line, heights, types);
-    }
-    height_range range() const override { return range_of(sampler); }
-};
-
+/// Erases the type of a sampler. The call goes through a function pointer because compilers drop unused virtual
+/// functions late: programs would pay for seabeds that they don't use.
 /// @param owner  kept alive for as long as the sampler, which may refer to it
 template <typed_sampler S>
 any_sampler hold_sampler(S sampler, std::shared_ptr<const void> owner = nullptr) {
-    return any_sampler(std::make_shared<const held_sampler<S>>(std::move(sampler), std::move(owner)));
+    struct held {
+        S sampler;
+        std::shared_ptr<const void> owner;
+    };
+    const height_range range = range_of(sampler);
+    return {std::shared_ptr<const void>(new held{std::move(sampler), std::move(owner)}),
+            [](const void* from, const scanline& line, std::span<float> heights, std::span<type> types) {
+                static_cast<const held*>(from)->sampler.row(line, heights, types);
+            },
+            range};
 }
 
 template <class M>
@@ -102,7 +97,7 @@ inline namespace INSONIFY_FLAGS {
 /// A model for `any` to share. In the compiled form the built-in models have overloads, compiled once.
 template <model M>
 std::shared_ptr<const detail::model_interface> hold(M m) {
-    return std::make_shared<const detail::held_model<M>>(std::move(m));
+    return std::unique_ptr<const detail::model_interface>(new detail::held_model<M>(std::move(m)));
 }
 
 }  // namespace INSONIFY_FLAGS

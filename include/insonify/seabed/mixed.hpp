@@ -1,6 +1,7 @@
 // Layered seabeds: models composited over a base, each within its area, with a label at every point.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/seabed/cover.hpp>
 #include <insonify/seabed/flat.hpp>
 #include <insonify/seabed/ripples.hpp>
@@ -84,7 +85,7 @@ class mixed_sampler {
         detail::border edge;
     };
     any_sampler base_;
-    std::vector<prepared_layer> layers_;
+    insonify::detail::dynamic_array<prepared_layer> layers_;
 };
 
 }  // namespace INSONIFY_FLAGS

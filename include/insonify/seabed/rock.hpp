@@ -1,6 +1,7 @@
 // Rock: outcrops that step up from the bottom, broken into blocks, boulders and rubble.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/seabed/any.hpp>
 #include <insonify/seabed/roughness.hpp>
 
@@ -58,7 +59,7 @@ class rock_sampler {
         const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(r.sizes) - 2));
         float share = 1, height = 0.8f * r.relief, largest = 1;
         float size = r.block;
-        std::vector<float> shares;
+        insonify::detail::dynamic_array<float> shares;
         for (; shares.empty() || size >= r.smallest; size /= 2, share *= ratio) {
             shares.push_back(share);
             largest = (std::max)(largest, share);
@@ -127,8 +128,8 @@ class rock_sampler {
         }
     }
 
-    std::vector<detail::gradient_noise> outcrops_;
-    std::vector<detail::block_layer> blocks_;
+    insonify::detail::dynamic_array<detail::gradient_noise> outcrops_;
+    insonify::detail::dynamic_array<detail::block_layer> blocks_;
     detail::power_law_noise surface_;
     float relief_;
 };

@@ -4,6 +4,7 @@
 // unbounded and independent of the grid. Outside an edit's bounds no bit changes.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/seabed/any.hpp>
 #include <insonify/seabed/edit.hpp>
 #include <insonify/seabed/flat.hpp>
@@ -93,7 +94,7 @@ class sculpt_sampler {
         detail::ground_rect bounds;
     };
     any_sampler ground_;
-    std::vector<bounded_edit> edits_;
+    insonify::detail::dynamic_array<bounded_edit> edits_;
 };
 
 }  // namespace INSONIFY_FLAGS

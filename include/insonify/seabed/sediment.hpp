@@ -46,8 +46,10 @@ inline roughness roughness_of(sediment s) {
     return {.rms = 2.3784f * facts_of(s).rms(), .longest = 4, .shortest = 0.06f};
 }
 
-/// The seabed that a sediment makes, with its label: outcrops and boulders of rock, cobbles, level sand, soft mud.
-inline any bottom_of(sediment s, std::uint64_t seed = 1) {
+/// The seabed that a sediment makes, with its label: outcrops and boulders of rock, cobbles, level sand, soft mud. A
+/// template, so that programs that don't call it don't compile these models.
+template <std::same_as<sediment> Sediment>
+any bottom_of(Sediment s, std::uint64_t seed = 1) {
     const roughness surface = roughness_of(s);
     const sediment_form& form = facts_of(s).form;
     const type kind = type_of(s);

@@ -9,6 +9,7 @@
 // or inside out. Triangles are skipped only where that provably changes nothing (shadow::skip).
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/shadow/detail/blocking.hpp>
 #include <insonify/shadow/detail/grid_caster.hpp>
 #include <insonify/shadow/detail/occlusion_kernel.hpp>
@@ -33,7 +34,7 @@ class exact_occlusion {
     ///         point light that is not finite
     template <executor E>
     exact_occlusion(std::span<const caster> casters, const any_light& light, const point_bounds& where, E& ex)
-        : casters_(casters.begin(), casters.end()),
+        : casters_(casters),
           level_(where.level),
           rays_(light, reach_of(where.box)),
           planes_(light),
@@ -73,7 +74,7 @@ class exact_occlusion {
         insonify::detail::uninitialized_array<decision> answers(c.mesh.triangles.size(),
                                                                 insonify::detail::memory_of(ex));
         // Triangles that other casters may shade are left to the test of points.
-        std::vector<std::pair<glm::dvec2, glm::dvec2>> shared;
+        insonify::detail::dynamic_array<std::pair<glm::dvec2, glm::dvec2>> shared;
         const detail::tiled_plane& plane = planes_.front();
         const detail::ray_feet feet(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
@@ -94,8 +95,8 @@ class exact_occlusion {
     /// See occlusion.
     void test(const points& at, const results& into) const {
         serial_executor serial;
-        std::vector<points> parts;
-        std::vector<results> into_parts;
+        insonify::detail::dynamic_array<points> parts;
+        insonify::detail::dynamic_array<results> into_parts;
         for (std::size_t first = 0; first < at.size(); first += max_batch) {
             const std::size_t count = (std::min)(max_batch, at.size() - first);
             parts.push_back({at.x.subspan(first, count), at.y.subspan(first, count), at.z.subspan(first, count),
@@ -204,7 +205,7 @@ class exact_occlusion {
         for (std::size_t i = 0; i < casters_.size(); ++i) {
             const caster& c = casters_[i];
             if (grids_[i]) {
-                state.casters.emplace_back();
+                state.casters.push_back({});
                 const auto [first, last] = state.tiles_under(c);
                 for (int row = first.y; row <= last.y; ++row)
                     for (int column = first.x; column <= last.x; ++column)
@@ -212,7 +213,8 @@ class exact_occlusion {
                 continue;
             }
             insonify::detail::require_indices(c.mesh, ex);
-            const auto& built = state.casters.emplace_back(c, plane, tiles, min_depth, level_, ex);
+            state.casters.push_back({c, plane, tiles, min_depth, level_, ex});
+            const detail::plane_caster& built = state.casters.back();
             for (std::size_t tile = 0; tile < tiles.count(); ++tile)
                 if (!built.bin(tile).empty()) state.occupy(tile, i);
         }
@@ -263,11 +265,12 @@ class exact_occlusion {
         return (numeric::determinant(c.placement.linear) < 0) != state.plane.is_mirrored();
     }
 
-    std::vector<caster> casters_;
+    insonify::detail::dynamic_array<caster> casters_;
     isa level_;
     detail::light_rays rays_;
     detail::tiled_planes planes_;
-    std::vector<std::optional<detail::grid_caster>> grids_;  ///< of the casters, under parallel light
+    insonify::detail::dynamic_array<std::optional<detail::grid_caster>>
+        grids_;  ///< of the casters, under parallel light
 };
 
 }  // namespace INSONIFY_FLAGS

@@ -4,6 +4,7 @@
 // The resolution that it needs is the picture's ground sampling, at every elevation.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/image.hpp>
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/geometry/transform.hpp>
@@ -58,7 +59,7 @@ inline map_extent merge(const map_extent& a, const map_extent& b) {
 template <executor_argument E = serial_executor>
 map_extent extent_of(const mesh_view& m, const affine& to_world, const light_frame& frame, E&& ex = {}) {
     constexpr std::size_t grain = 16384;
-    std::vector<map_extent> parts((m.positions.size() + grain - 1) / grain);
+    insonify::detail::dynamic_array<map_extent> parts((m.positions.size() + grain - 1) / grain);
     bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
         map_extent part;
         for (std::size_t i = first; i < last; ++i) {

@@ -5,6 +5,7 @@
 // rejected.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/executor.hpp>
 #include <insonify/shadow/map_lookup.hpp>
 #include <insonify/shadow/policy.hpp>
@@ -40,13 +41,14 @@ class map_occlusion {
     template <executor E>
     map_occlusion(const map_layout& layout, std::span<const caster> casters, const any_light& light,
                   const point_bounds& bounds, E& ex)
-        : casters_(casters.begin(), casters.end()), frame_(parallel(light)), radius_(layout.radius) {
+        : casters_(casters), frame_(parallel(light)), radius_(layout.radius) {
         validate(layout);
         const map_extent receivers = extent_of(bounds.box, {}, frame_);
         const double texel = spacing_of(bounds, receivers) / static_cast<double>(layout.texels_per_pixel);
         for (const caster& c : casters_) {
             const map_extent own = extent_of(c.box, c.placement, frame_).clipped_to(receivers);
-            maps_.emplace_back(frame_, own, texel, layout.largest).cast(c.mesh, c.placement, ex);
+            maps_.push_back({frame_, own, texel, layout.largest});
+            maps_.back().cast(c.mesh, c.placement, ex);
         }
     }
 
@@ -92,10 +94,10 @@ class map_occlusion {
         return longer > 0 ? longer / 2048 : 1;
     }
 
-    std::vector<caster> casters_;
+    insonify::detail::dynamic_array<caster> casters_;
     light_frame frame_;
     int radius_;
-    std::vector<height_map> maps_;
+    insonify::detail::dynamic_array<height_map> maps_;
 };
 
 }  // namespace INSONIFY_FLAGS

@@ -5,6 +5,7 @@
 // Based on: Helmut Vogel. A Better Way to Construct the Sunflower Head. Mathematical Biosciences 44, 1979.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/shadow/exact.hpp>
 
 #include <optional>
@@ -27,7 +28,7 @@ class penumbra_occlusion {
     template <executor E>
     penumbra_occlusion(double radius, int samples, std::span<const caster> casters, const any_light& light,
                        const point_bounds& bounds, E& ex)
-        : casters_(casters.begin(), casters.end()), samples_(samples) {
+        : casters_(casters), samples_(samples) {
         for (int i = 0; i < samples; ++i) {
             const double share = i == 0 ? 0 : numeric::square_root((i + 0.5) / samples);
             const auto [sine, cosine] = numeric::sin_cos_turns(0.6180339887498949 * i);
@@ -57,7 +58,7 @@ class penumbra_occlusion {
         for (const points& some : at) count += some.size();
         insonify::detail::uninitialized_array<float> lit(count);
         insonify::detail::uninitialized_array<std::uint32_t> blocking(count);
-        std::vector<results> one;
+        insonify::detail::dynamic_array<results> one;
         count = 0;
         for (const points& some : at) {
             one.push_back(
@@ -126,9 +127,9 @@ class penumbra_occlusion {
         for (float& lit : into.lit) lit /= static_cast<float>(samples_);
     }
 
-    std::vector<caster> casters_;
+    insonify::detail::dynamic_array<caster> casters_;
     int samples_;
-    std::vector<sample> lights_;  ///< the middle first
+    insonify::detail::dynamic_array<sample> lights_;  ///< the middle first
 };
 
 }  // namespace INSONIFY_FLAGS

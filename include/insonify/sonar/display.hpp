@@ -5,13 +5,13 @@
 // Handbook of Sidescan Sonar, 2009, chapter 4: gain, contrast stretch and dynamic range of displays).
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/image_view.hpp>
 #include <insonify/core/numeric.hpp>
 
 #include <algorithm>
 #include <concepts>
 #include <type_traits>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -88,7 +88,7 @@ struct automatic_display {
             "automatic_display.scale", static_cast<int>(scale), "power, amplitude or decibels");
         detail::require_range("automatic_display.black", black, 0, 0.49f, "0 to 0.49");
         detail::require_range("automatic_display.white", white, 0, 0.49f, "0 to 0.49");
-        std::vector<float> values;
+        detail::dynamic_array<float> values;
         values.reserve(picture.size());
         for (int y = 0; y < picture.height(); ++y)
             for (const float v : picture.row(y))

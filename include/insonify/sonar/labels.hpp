@@ -1,12 +1,14 @@
 // Ground truth per pixel: target instances, seabed labels, and shadows with their casters.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/detail/filled.hpp>
 #include <insonify/core/rect.hpp>
 #include <insonify/sonar/scene.hpp>
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -85,7 +87,7 @@ inline namespace INSONIFY_FLAGS {
 /// The class of every pixel that shows a target.
 inline class_map classes_of(const labels& l) {
     class_map map;
-    std::vector<std::uint16_t> class_of{0};  // by instance
+    detail::dynamic_array<std::uint16_t> class_of{0};  // by instance
     for (const target_label& t : l.targets) {
         const auto known = std::find(map.names.begin(), map.names.end(), t.class_name);
         class_of.push_back(static_cast<std::uint16_t>(known - map.names.begin() + 1));

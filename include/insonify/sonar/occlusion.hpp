@@ -3,6 +3,7 @@
 // The casters are those of `render`: the targets, and the seabed sampled around the points and towards the light.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/seabed/sample.hpp>
 #include <insonify/seabed/tessellate.hpp>
 #include <insonify/shadow/exact.hpp>
@@ -66,14 +67,14 @@ class scene_occlusion {
         occlusion_results all{std::vector<float>(at.size()), std::vector<std::uint16_t>(at.size())};
         bulk_ranges(ex, at.size(), max_points, [&](std::size_t first, std::size_t last) {
             const std::size_t count = last - first;
-            std::vector<double> x(count), y(count), z(count);
+            detail::dynamic_array<double> x(count), y(count), z(count);
             for (std::size_t i = 0; i < count; ++i) {
                 x[i] = at[first + i].x - centre_.x;
                 y[i] = at[first + i].y - centre_.y;
                 z[i] = at[first + i].z;
             }
-            const std::vector<std::uint32_t> none(count, shadow::invalid_id);
-            std::vector<std::uint32_t> caster(count);
+            const detail::dynamic_array<std::uint32_t> none(count, shadow::invalid_id);
+            detail::dynamic_array<std::uint32_t> caster(count);
             built_.test(shadow::points{x, y, z, none, none},
                         shadow::results{std::span(all.lit).subspan(first, count), caster});
             for (std::size_t i = 0; i < count; ++i)
@@ -126,16 +127,16 @@ class scene_occlusion {
         return within.cell > 0 ? within.cell : longer_side(within) / 512;
     }
 
-    std::vector<shadow::caster> casters() const {
-        std::vector<shadow::caster> all;
+    detail::dynamic_array<shadow::caster> casters() const {
+        detail::dynamic_array<shadow::caster> all;
         for (const placed& p : shapes_) all.push_back({p.shape, p.placement, p.shape.box()});
         return all;
     }
 
     template <executor E>
-    std::vector<placed> shapes_of(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
-                                  double radius, E& ex) const {
-        std::vector<placed> all;
+    detail::dynamic_array<placed> shapes_of(const scene& s, const shadow::any_light& light,
+                                            const occlusion_bounds& within, double radius, E& ex) const {
+        detail::dynamic_array<placed> all;
         for (const target& t : s.targets) all.push_back({t.shape, around_centre(to_world(t.placement))});
         if (s.seabed.empty()) return all;
         seabed::detail::require_finite(s.seabed.prepare().range());
@@ -175,7 +176,7 @@ class scene_occlusion {
     }
 
     glm::dvec3 centre_;
-    std::vector<placed> shapes_;  ///< the targets, then the seabed
+    detail::dynamic_array<placed> shapes_;  ///< the targets, then the seabed
     std::size_t targets_;
     Occlusion built_;
 };

@@ -17,20 +17,20 @@ TEST_CASE("radix_sort() orders by key and keeps the order of equal ones, as a st
     const std::uint64_t mask = GENERATE(0x3u, 0xFFFF00000000u, 0x700000000007u, ~std::uint64_t{0});
     INFO(size << " items, keys within " << mask);
     in::random_sequence random(1, size, mask);
-    std::vector<keyed> items;
-    std::vector<std::uint32_t> words;
+    in::detail::dynamic_array<keyed> items;
+    in::detail::dynamic_array<std::uint32_t> words;
     for (std::uint32_t i = 0; i < size; ++i) {
         items.push_back({(std::uint64_t{random.word()} << 32 | random.word()) & mask, i});
         words.push_back(random.word() & static_cast<std::uint32_t>(mask));
     }
-    std::vector<keyed> expected = items;
+    std::vector<keyed> expected(items.begin(), items.end());
     std::stable_sort(expected.begin(), expected.end(), [](const keyed& a, const keyed& b) { return a.key < b.key; });
     in::detail::radix_sort(items);
     const auto same = [](const keyed& a, const keyed& b) { return a.key == b.key && a.number == b.number; };
     CHECK(std::equal(items.begin(), items.end(), expected.begin(), expected.end(), same));
 
-    std::vector<std::uint32_t> sorted = words;
+    std::vector<std::uint32_t> sorted(words.begin(), words.end());
     std::sort(sorted.begin(), sorted.end());
     in::detail::radix_sort(words);
-    CHECK(words == sorted);
+    CHECK(std::equal(words.begin(), words.end(), sorted.begin(), sorted.end()));
 }

@@ -2,11 +2,11 @@
 // 0.003 at every whole distance d: the taps are truncated at 1.5 length + 3.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/numeric.hpp>
 
 #include <algorithm>
 #include <array>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -18,7 +18,7 @@ namespace detail::inline INSONIFY_FLAGS {
 /// Fourier transform of the root of the autocorrelation's spectrum: a sampled Gaussian would correlate too little below
 /// a length of 2.
 /// @param length  distance at which the autocorrelation has fallen to 1 / e, 0 to 50; 0: white
-inline std::vector<float> field_taps(double length) {
+inline dynamic_array<float> field_taps(double length) {
     constexpr std::size_t period = 512, half = period / 2;
     if (!(length > 0)) return {1.0f};
     std::array<double, period> cosine{};
@@ -43,7 +43,7 @@ inline std::vector<float> field_taps(double length) {
         root[k] = numeric::square_root((std::max)(power, 0.0));
     }
     const std::size_t reach = static_cast<std::size_t>(1.5 * length) + 3;
-    std::vector<double> taps;
+    dynamic_array<double> taps;
     double sum = 0;
     for (std::size_t j = 0; j <= reach; ++j) {
         double tap = root[0] + root[half] * cosine[half * j % period];
@@ -51,7 +51,7 @@ inline std::vector<float> field_taps(double length) {
         taps.push_back(tap);
         sum += (j == 0 ? 1 : 2) * tap * tap;
     }
-    std::vector<float> result;
+    dynamic_array<float> result;
     for (const double tap : taps) result.push_back(static_cast<float>(tap / numeric::square_root(sum)));
     return result;
 }

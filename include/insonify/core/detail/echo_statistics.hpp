@@ -8,6 +8,7 @@
 #pragma once
 
 #include <insonify/core/detail/correlation.hpp>
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/random.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -115,7 +116,7 @@ inline auto rice_correlation(double steady) {
 }
 
 /// Taps for fields of echoes without a steady part or texture, whose intensities have the given length.
-inline std::vector<float> intensity_taps(double length) {
+inline dynamic_array<float> intensity_taps(double length) {
     return field_taps(field_length(length, rice_correlation(0)));
 }
 

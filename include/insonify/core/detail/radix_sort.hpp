@@ -1,12 +1,12 @@
 // Radix sort by digits of 11 bits: linear, and five to six times as fast as std::sort on millions of values.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/numeric.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -37,7 +37,7 @@ constexpr std::uint64_t key_of(const keyed& item) {
 
 /// Sorts items by their key_of. The order of equal ones is kept.
 template <class Item>
-void radix_sort(std::vector<Item>& items) {
+void radix_sort(dynamic_array<Item>& items) {
     if (items.size() < 64) {  // shorter than the counts: insertion
         for (std::size_t i = 1; i < items.size(); ++i) {
             const Item item = items[i];
@@ -51,10 +51,10 @@ void radix_sort(std::vector<Item>& items) {
     const auto digit_of = [](const Item& item, std::size_t digit) {
         return static_cast<std::size_t>(key_of(item) >> (11 * digit)) % values;
     };
-    std::vector<std::size_t> counts(digits * values);
+    dynamic_array<std::size_t> counts(digits * values);
     for (const Item& item : items)
         for (std::size_t digit = 0; digit < digits; ++digit) ++counts[digit * values + digit_of(item, digit)];
-    std::vector<Item> sorted(items.size());
+    dynamic_array<Item> sorted(items.size());
     for (std::size_t digit = 0; digit < digits; ++digit) {
         std::size_t* const starts = &counts[digit * values];
         if (starts[digit_of(items.front(), digit)] == items.size()) continue;  // all have this digit

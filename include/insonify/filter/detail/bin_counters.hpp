@@ -1,6 +1,7 @@
 // Counts the pixels of an image by bin, in bands that executors run in parallel.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/executor.hpp>
 #include <insonify/core/image.hpp>
 #include <insonify/core/quantize.hpp>
@@ -101,7 +102,7 @@ class code_counter {
   private:
     static constexpr std::size_t levels = std::size_t{(std::numeric_limits<Code>::max)()} + 1;
     static constexpr std::size_t tables = sizeof(Code) == 1 ? 4 : 1;
-    std::vector<std::uint32_t> counts_;
+    dynamic_array<std::uint32_t> counts_;
 };
 
 /// Counts any pixel type into any number of bins.
@@ -122,7 +123,7 @@ class bin_counter {
 
   private:
     int bins_;
-    std::vector<std::uint32_t> counts_;
+    dynamic_array<std::uint32_t> counts_;
 };
 
 /// Counts bands of an image, each with a counter of its own from `make()`, and adds them up.
@@ -134,7 +135,7 @@ std::vector<std::uint64_t> count_bands(image_view<const Pixel> source, int bins,
     const auto width = static_cast<std::size_t>((std::max)(source.width(), 1));
     const std::size_t max_rows = (std::size_t{1} << 31) / width, min_rows = counter::min_pixels / width + 1;
     const std::size_t grain = (std::max)((std::min)(rows / 16 + 1, max_rows), min_rows);
-    std::vector<std::vector<std::uint64_t>> bands((rows + grain - 1) / grain);
+    dynamic_array<dynamic_array<std::uint64_t>> bands((rows + grain - 1) / grain);
     bulk_ranges(ex, rows, grain, [&](std::size_t first, std::size_t last) {
         counter own = make();
         for (std::size_t y = first; y < last; ++y) {
@@ -142,12 +143,12 @@ std::vector<std::uint64_t> count_bands(image_view<const Pixel> source, int bins,
             for (int x = 0; x < source.width(); x += run_length)
                 own.add(row.data() + x, (std::min)(run_length, source.width() - x));
         }
-        std::vector<std::uint64_t>& band = bands[first / grain];
+        dynamic_array<std::uint64_t>& band = bands[first / grain];
         band.resize(static_cast<std::size_t>(bins));
         own.add_to(band);
     });
     std::vector<std::uint64_t> sums(static_cast<std::size_t>(bins));
-    for (const std::vector<std::uint64_t>& band : bands)
+    for (const dynamic_array<std::uint64_t>& band : bands)
         for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += band[i];
     return sums;
 }

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <insonify/core/detail/correlation.hpp>
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/detail/tap_kernels.hpp>
 #include <insonify/filter/detail/noise_pass.hpp>
 #include <insonify/filter/parameter.hpp>
-
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -24,7 +23,7 @@ inline void require_correlation(const char* name, const correlation_length& leng
 class correlated_draws {
   public:
     /// @param x, y  taps of the filters along rows and columns
-    correlated_draws(noise_key noise, std::vector<float> x, std::vector<float> y)
+    correlated_draws(noise_key noise, dynamic_array<float> x, dynamic_array<float> y)
         : noise_(noise), taps_x_(std::move(x)), taps_y_(std::move(y)) {}
 
     /// The draws of a run, in `into`.
@@ -49,7 +48,7 @@ class correlated_draws {
         int x, count;
         int y = 0;
         bool filled = false;
-        std::vector<float> ring;
+        dynamic_array<float> ring;
 
         float* at(int row) {
             const auto rows = static_cast<std::int64_t>(ring.size() / run_length);
@@ -67,7 +66,7 @@ class correlated_draws {
         }
         last_ = strips_.size();
         strips_.push_back({field, run.channel, run.x, run.count, 0, false,
-                           std::vector<float>((2 * taps_y_.size() - 1) * run_length)});
+                           dynamic_array<float>((2 * taps_y_.size() - 1) * run_length)});
         return strips_.back();
     }
 
@@ -75,21 +74,21 @@ class correlated_draws {
     void blur_row(float* into, std::uint32_t field, const noise_run& run) const {
         const int reach = static_cast<int>(taps_x_.size()) - 1;
         draw_buffer buffer;
-        std::vector<float> white;
+        dynamic_array<float> white;
         for (int x = run.x - reach; x < run.x + run.count + reach; x += run_length) {
             const int count = (std::min)(run_length, run.x + run.count + reach - x);
             const float* const draws = white_draws<normal_draws>(buffer, noise_, field, {x, run.y, count, run.channel});
-            white.insert(white.end(), draws, draws + count);
+            white.append({draws, static_cast<std::size_t>(count)});
         }
         dispatch(taps_along_row{taps_x_, white.data() + reach, 1, into, static_cast<std::size_t>(run.count)},
                  best_isa());
     }
 
     noise_key noise_;
-    std::vector<float> taps_x_, taps_y_;
-    std::vector<strip> strips_;
+    dynamic_array<float> taps_x_, taps_y_;
+    dynamic_array<strip> strips_;
     std::size_t last_ = 0;
-    std::vector<const float*> rows_;
+    dynamic_array<const float*> rows_;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS

@@ -4,11 +4,11 @@
 // Gaussian field has any distribution, and a correlation that follows from the field's).
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/numeric.hpp>
 
 #include <algorithm>
 #include <array>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -51,7 +51,7 @@ class gamma_texture {
         const double spread = numeric::square_root(160 / shape) + 60 / shape;  // beyond: less than e^-40
         const double low = -(std::min)(spread, 60.0), high = numeric::log(1 + spread), dy = (high - low) / intervals;
         const auto density = [&](double y) { return numeric::exp(shape * (1 + y - numeric::exp(y))); };
-        std::vector<double> below{density(low) / shape};  // the tail to the left is exponential
+        dynamic_array<double> below{density(low) / shape};  // the tail to the left is exponential
         double last = density(low);
         for (std::size_t i = 1; i <= intervals; ++i) {
             const double next = density(low + static_cast<double>(i) * dy);
@@ -92,7 +92,7 @@ class gamma_texture {
         powers_[terms - 1] += left;
     }
 
-    std::vector<float> values_;           ///< at z = -7, -7 + step, ...
+    dynamic_array<float> values_;         ///< at z = -7, -7 + step, ...
     std::array<double, terms> powers_{};  ///< of r, r^2, ...; their sum is 1
 };
 

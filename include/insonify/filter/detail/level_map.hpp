@@ -1,6 +1,7 @@
 // Maps pixel levels to values: the lookup table behind histogram equalization and matching.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/filter/detail/bin_counters.hpp>
 
 #include <algorithm>
@@ -12,7 +13,6 @@
 #include <span>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -28,12 +28,12 @@ inline constexpr int source_levels = std::same_as<Pixel, std::uint16_t> ? 65536 
 template <countable_pixel Pixel>
 class level_map {
   public:
-    explicit level_map(std::vector<Pixel> values)
-        : values_(std::make_shared<const std::vector<Pixel>>(std::move(values))) {}
+    explicit level_map(dynamic_array<Pixel> values)
+        : values_(std::make_shared<const dynamic_array<Pixel>>(std::move(values))) {}
 
     template <std::same_as<Pixel> P>
     P operator()(P pixel) const {
-        const std::vector<Pixel>& values = *values_;
+        const dynamic_array<Pixel>& values = *values_;
         if constexpr (std::is_same_v<P, float>)
             return pixel == pixel ? values[quantize<std::uint8_t>(pixel)] : pixel;
         else
@@ -54,7 +54,7 @@ class level_map {
     }
 
   private:
-    std::shared_ptr<const std::vector<Pixel>> values_;  // passes are copied; the table isn't
+    std::shared_ptr<const dynamic_array<Pixel>> values_;  // passes are copied; the table isn't
 };
 
 /// The map of histeq: each source level goes to the first level of `wanted` whose cumulative share reaches the
@@ -68,7 +68,7 @@ level_map<Pixel> map_levels(std::span<const std::uint64_t> source, std::span<con
     const auto wanted_total = static_cast<double>(total(wanted));
     constexpr double tolerance = 0x1p-26;
     const std::size_t levels = source.size();
-    std::vector<Pixel> values(levels);
+    dynamic_array<Pixel> values(levels);
     std::uint64_t below = 0, reached = wanted[0];
     std::size_t target = 0;
     for (std::size_t level = 0; level < levels; ++level) {

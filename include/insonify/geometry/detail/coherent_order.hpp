@@ -3,13 +3,13 @@
 // Based on: Guy M. Morton. A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing. IBM, 1966.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/detail/radix_sort.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/geometry/bounds.hpp>
 
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -45,7 +45,7 @@ inline std::uint64_t every_third_bit(std::uint64_t value) {
 /// Sorts triangles along Morton's curve through their centres, and vertices by the first triangle that uses them.
 inline void order_along_curve(mesh& m, const bounding_box& box) {
     const glm::dvec3 size = box.size();
-    std::vector<keyed> order(m.triangles.size());
+    dynamic_array<keyed> order(m.triangles.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
         std::uint64_t key = 0;
         for (int axis = 0; axis < 3; ++axis) {
@@ -60,7 +60,7 @@ inline void order_along_curve(mesh& m, const bounding_box& box) {
     radix_sort(order);
 
     constexpr std::uint32_t unused = 0xFFFFFFFFu;
-    std::vector<std::uint32_t> number(m.positions.size(), unused);
+    dynamic_array<std::uint32_t> number(m.positions.size(), unused);
     mesh sorted;
     sorted.triangles.reserve(m.triangles.size());
     sorted.positions.reserve(m.positions.size());

@@ -1,6 +1,7 @@
 // Checks that a mesh's triangles index existing positions.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/executor.hpp>
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/lanes.hpp>
@@ -49,7 +50,7 @@ inline std::optional<std::uint32_t> bad_index(std::span<const glm::uvec3> triang
 template <executor E>
 void require_indices(const mesh_view& m, E& ex) {
     constexpr std::size_t grain = 65536;
-    std::vector<std::optional<std::uint32_t>> bad((m.triangles.size() + grain - 1) / grain);
+    dynamic_array<std::optional<std::uint32_t>> bad((m.triangles.size() + grain - 1) / grain);
     bulk_ranges(ex, m.triangles.size(), grain, [&](std::size_t first, std::size_t last) {
         bad[first / grain] = bad_index(m.triangles.subspan(first, last - first), m.positions.size(), best_isa());
     });

@@ -2,6 +2,7 @@
 // optimizer. They are recognized by the positions of their vertices.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/geometry/mesh.hpp>
 
@@ -73,7 +74,7 @@ class triangle_lattice {
 
 /// The vertices of a mesh as points of a lattice.
 struct lattice_vertices {
-    std::vector<glm::ivec2> at;  ///< column and row of each vertex
+    dynamic_array<glm::ivec2> at;  ///< column and row of each vertex
     glm::ivec2 lowest{0}, highest{0};
 
     std::size_t columns() const { return static_cast<std::size_t>(highest.x - lowest.x + 1); }
@@ -97,9 +98,9 @@ struct lattice_vertices {
     }
 
     /// The vertex at each point, row by row; none if a point has two.
-    std::optional<std::vector<std::uint32_t>> by_point() const {
+    std::optional<dynamic_array<std::uint32_t>> by_point() const {
         constexpr std::uint32_t none = 0xFFFFFFFFu;
-        std::vector<std::uint32_t> vertices(at.size(), none);
+        dynamic_array<std::uint32_t> vertices(at.size(), none);
         for (std::uint32_t v = 0; v < at.size(); ++v) {
             std::uint32_t& vertex = vertices[index(at[v], columns())];
             if (vertex != none) return std::nullopt;

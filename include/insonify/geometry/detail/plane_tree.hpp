@@ -4,6 +4,7 @@
 // their own order, which shared_mesh keeps coherent. It is built in one pass, and triangles are visited in order.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/geometry/mesh.hpp>
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -24,7 +24,7 @@ class plane_tree {
     plane_tree() = default;
     /// @param m  its indices have positions; triangles with corners that are not finite are left out
     explicit plane_tree(const mesh_view& m) : triangles_(m.triangles.size()) {
-        std::vector<box> level((triangles_ + branching - 1) / branching);
+        dynamic_array<box> level((triangles_ + branching - 1) / branching);
         for (std::size_t i = 0; i < triangles_; ++i) {
             const glm::uvec3& t = m.triangles[i];
             glm::vec3 sum(0);
@@ -34,8 +34,8 @@ class plane_tree {
         }
         levels_.push_back(std::move(level));
         while (levels_.back().size() > 1) {
-            const std::vector<box>& below = levels_.back();
-            std::vector<box> above((below.size() + branching - 1) / branching);
+            const dynamic_array<box>& below = levels_.back();
+            dynamic_array<box> above((below.size() + branching - 1) / branching);
             for (std::size_t i = 0; i < below.size(); ++i) {
                 above[i / branching].include(below[i].low);
                 above[i / branching].include(below[i].high);
@@ -85,7 +85,7 @@ class plane_tree {
     }
 
     std::size_t triangles_ = 0;
-    std::vector<std::vector<box>> levels_;
+    dynamic_array<dynamic_array<box>> levels_;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS

@@ -4,6 +4,7 @@
 // compact grid, or pieces of clipped triangles. They take a slower path that is exact at any distance.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/transpose.hpp>
 #include <insonify/geometry/detail/indices.hpp>
@@ -24,7 +25,7 @@ namespace detail::inline INSONIFY_FLAGS {
 /// The visible triangles of a chunk, and the counts of all.
 struct assembled_chunk {
     tile_runs runs;
-    std::vector<wide_triangle> wide;
+    dynamic_array<wide_triangle> wide;
     draw_stats stats;
     std::optional<std::uint32_t> bad_index;
 };
@@ -57,7 +58,7 @@ class screen_mesh {
                      options.level);
         });
         const std::size_t grain = (std::max)(std::size_t{4096}, (m.triangles.size() / 64 + 16) / 16 * 16);
-        std::vector<assembled_chunk> chunks((m.triangles.size() + grain - 1) / grain);
+        dynamic_array<assembled_chunk> chunks((m.triangles.size() + grain - 1) / grain);
         bulk_ranges(ex, m.triangles.size(), grain, [&](std::size_t first, std::size_t last) {
             assembled_chunk& chunk = chunks[first / grain];
             chunk.bad_index = bad_index(m.triangles.subspan(first, last - first), m.positions.size(), options.level);
@@ -70,12 +71,12 @@ class screen_mesh {
         for (const assembled_chunk& c : chunks)
             if (c.bad_index) detail::refuse("mesh.triangles", *c.bad_index, "an index of a position");
 
-        std::vector<tile_runs> runs;
+        dynamic_array<tile_runs> runs;
         runs.reserve(chunks.size());
         for (assembled_chunk& c : chunks) {
             const auto offset = static_cast<std::uint32_t>(wide_.size());
             if (offset > 0 && !c.wide.empty()) c.runs.shift_ids(compact_count_, offset);
-            wide_.insert(wide_.end(), c.wide.begin(), c.wide.end());
+            wide_.append(c.wide);
             runs.push_back(std::move(c.runs));
             stats_ += c.stats;
         }
@@ -196,7 +197,7 @@ class screen_mesh {
     projection projection_;
     cull_mode cull_;
     screen_vertices<Real> vertices_;
-    std::vector<wide_triangle> wide_;
+    dynamic_array<wide_triangle> wide_;
     tile_bins bins_;
     draw_stats stats_;
 };

@@ -6,6 +6,7 @@
 // depend on which thread ran which chunk.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/detail/uninitialized.hpp>
 #include <insonify/core/executor.hpp>
 #include <insonify/core/rect.hpp>
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <span>
 #include <utility>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -151,7 +151,7 @@ class tile_runs {
         tile_range tiles;
         triangle_run run;
     };
-    std::vector<entry> entries_;
+    dynamic_array<entry> entries_;
 };
 
 /// Runs by tile.
@@ -164,7 +164,7 @@ class tile_bins {
     tile_bins(std::span<const tile_runs> chunks, const tile_grid& grid, E& ex) : first_(grid.count() + 1, 0) {
         // How many runs each chunk has in each tile; then, where it puts the next one.
         const std::size_t tiles = grid.count();
-        std::vector<std::uint32_t> positions(chunks.size() * tiles, 0);
+        dynamic_array<std::uint32_t> positions(chunks.size() * tiles, 0);
         const auto of_chunk = [&](std::size_t chunk) { return std::span(positions).subspan(chunk * tiles, tiles); };
         ex.bulk(chunks.size(), [&](std::size_t chunk) {
             chunks[chunk].for_each(grid, [&](std::size_t tile, const triangle_run&) { ++of_chunk(chunk)[tile]; });
@@ -172,7 +172,7 @@ class tile_bins {
         for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk)
             for (std::size_t tile = 0; tile < tiles; ++tile) first_[tile + 1] += of_chunk(chunk)[tile];
         for (std::size_t tile = 0; tile < tiles; ++tile) first_[tile + 1] += first_[tile];
-        std::vector<std::uint32_t> next = first_;
+        dynamic_array<std::uint32_t> next = first_;
         for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk)
             for (std::size_t tile = 0; tile < tiles; ++tile)
                 next[tile] += std::exchange(of_chunk(chunk)[tile], next[tile]);
@@ -189,7 +189,7 @@ class tile_bins {
     }
 
   private:
-    std::vector<std::uint32_t> first_;
+    dynamic_array<std::uint32_t> first_;
     uninitialized_array<triangle_run> runs_;
 };
 

@@ -6,12 +6,11 @@
 // Based on: Ken Perlin. Improving Noise. SIGGRAPH, 2002 (gradients on a lattice, quintic fade).
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/simd/transpose.hpp>
 #include <insonify/seabed/detail/interpolation.hpp>
 #include <insonify/seabed/detail/stretch.hpp>
 #include <insonify/seabed/roughness.hpp>
-
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -205,7 +204,7 @@ class power_law_noise {
             o.noise.template add<N>(part, kept * o.amplitude, values);
         }
     }
-    std::vector<octave> octaves_;
+    insonify::detail::dynamic_array<octave> octaves_;
     double slope_ = 0;
 };
 

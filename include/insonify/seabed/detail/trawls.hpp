@@ -4,12 +4,11 @@
 // The spoil lies in a low berm on either side.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/seabed/detail/interpolation.hpp>
 #include <insonify/seabed/detail/ripple_train.hpp>
 #include <insonify/seabed/detail/stretch.hpp>
 #include <insonify/seabed/trawl_marks.hpp>
-
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -111,7 +110,7 @@ class trawl_furrows {
         return depth_ * strength * (off < 1 ? 0.3f - 1.3f * inner * inner : 0.3f * fade(clamp01(2 - off)));
     }
 
-    std::vector<family> families_;
+    insonify::detail::dynamic_array<family> families_;
     float depth_, half_width_ = 0;  // the latter in strips
     double width_;
     cell_hash hash_;

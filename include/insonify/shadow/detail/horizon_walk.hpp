@@ -6,6 +6,7 @@
 // its error of the point's, the triangles of that column are tested in doubles.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/shadow/detail/horizon_bounds.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -25,7 +26,7 @@ class block_heights {
         highest_ = insonify::detail::uninitialized_array<float>(
             static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), insonify::detail::memory_of(ex));
         bulk_ranges(ex, static_cast<std::size_t>(columns_), 4, [&](std::size_t from, std::size_t to) {
-            std::vector<float> row(static_cast<std::size_t>(grid.rows));
+            insonify::detail::dynamic_array<float> row(static_cast<std::size_t>(grid.rows));
             for (auto column = static_cast<int>(from); column < static_cast<int>(to); ++column)
                 insonify::detail::dispatch(kernel{grid, heights, column * side, row.data(),
                                                   highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_, rows_},

@@ -2,6 +2,7 @@
 // that touch it.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/lanes.hpp>
 #include <insonify/core/simd/transpose.hpp>
@@ -209,7 +210,7 @@ class plane_caster {
                                        level);
         });
         const std::size_t grain = (std::max)(std::size_t{4096}, (triangles_.size() / 64 + 16) / 16 * 16);
-        std::vector<insonify::detail::tile_runs> chunks((triangles_.size() + grain - 1) / grain);
+        insonify::detail::dynamic_array<insonify::detail::tile_runs> chunks((triangles_.size() + grain - 1) / grain);
         bulk_ranges(ex, triangles_.size(), grain, [&](std::size_t first, std::size_t last) {
             insonify::detail::dispatch(
                 tile_assembly_kernel{vertices_.data(), triangles_.data(), first, last, tiles, chunks[first / grain]},

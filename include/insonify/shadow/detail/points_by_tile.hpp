@@ -4,12 +4,12 @@
 // runs.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/shadow/detail/receivers.hpp>
 #include <insonify/shadow/detail/tiled_plane.hpp>
 
 #include <algorithm>
 #include <span>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -54,8 +54,8 @@ class points_by_tile {
     using receivers_of = insonify::detail::uninitialized_array<receiver>;
     /// A run of batches.
     struct run {
-        std::size_t first = 0;              ///< of its points among all
-        std::vector<std::uint32_t> starts;  ///< of tiles, from there; empty if no tile has a caster
+        std::size_t first = 0;                                  ///< of its points among all
+        insonify::detail::dynamic_array<std::uint32_t> starts;  ///< of tiles, from there; empty if no tile has a caster
 
         std::span<const receiver> of(const receivers_of& all, std::size_t tile) const {
             if (starts.empty()) return {};
@@ -95,12 +95,12 @@ class points_by_tile {
             }
         }
         for (std::size_t tile = 0; tile < tiles; ++tile) out.starts[tile + 1] += out.starts[tile];
-        std::vector<std::uint32_t> next(out.starts.begin(), out.starts.end() - 1);
+        insonify::detail::dynamic_array<std::uint32_t> next = out.starts;
         for (std::size_t i = 0; i < count; ++i) sorted_[out.first + next[keys[i]]++] = found[i];
     }
 
     const tiled_planes& planes_;
-    std::vector<run> runs_;
+    insonify::detail::dynamic_array<run> runs_;
     receivers_of sorted_;
 };
 

@@ -1,6 +1,7 @@
 // The points of one tile of a light's plane, sorted into cells, so that the points under a triangle are a few runs.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/detail/uninitialized.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/core/simd/lanes.hpp>
@@ -82,7 +83,8 @@ class receiver_cells {
         for (auto* array : {&mesh, &triangle, &lit_mesh, &limit_}) array->resize(room);
         is_limited_ = false;
         lit_ = averted_ = {};
-        next_.assign(starts_.begin(), starts_.end() - 1);
+        next_.clear();
+        next_.append(starts_);
         for (std::size_t i = 0; i < count; ++i) {
             const receiver& r = from[i];
             const std::size_t at = next_[keys_[i]]++;
@@ -128,11 +130,12 @@ class receiver_cells {
         return starts_[static_cast<std::size_t>(row * columns_ + column)];
     }
 
-    std::vector<float> u, v, height;  ///< in the order of cells, with room for one more vector
-    std::vector<batch_index> place;
-    std::vector<std::uint32_t> mesh, triangle;
-    std::vector<std::uint32_t> lit_mesh;  ///< the mesh of a point whose facet faces the light, or invalid_id
-    std::vector<std::int32_t> caster;     ///< that blocks it, or open, or closed
+    insonify::detail::dynamic_array<float> u, v, height;  ///< in the order of cells, with room for one more vector
+    insonify::detail::dynamic_array<batch_index> place;
+    insonify::detail::dynamic_array<std::uint32_t> mesh, triangle;
+    insonify::detail::dynamic_array<std::uint32_t>
+        lit_mesh;  ///< the mesh of a point whose facet faces the light, or invalid_id
+    insonify::detail::dynamic_array<std::int32_t> caster;  ///< that blocks it, or open, or closed
 
   private:
     static constexpr int widest = 128;          // rows
@@ -150,8 +153,8 @@ class receiver_cells {
     float lowest_ = 0, highest_ = 0, largest_ = 0;
     bool is_limited_ = false;
     mesh_range lit_, averted_;  ///< meshes of points that face the light, and of those that face away
-    std::vector<std::uint32_t> starts_, next_, limit_;
-    std::vector<std::uint16_t> keys_;
+    insonify::detail::dynamic_array<std::uint32_t> starts_, next_, limit_;
+    insonify::detail::dynamic_array<std::uint16_t> keys_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS

@@ -1,6 +1,7 @@
 // The planes that rays of the light cross, cut into tiles, and which casters touch each tile.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/shadow/detail/light_planes.hpp>
 #include <insonify/shadow/detail/occluders.hpp>
 #include <insonify/shadow/policy.hpp>
@@ -10,7 +11,6 @@
 #include <limits>
 #include <optional>
 #include <utility>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -37,9 +37,10 @@ struct tiled_plane {
     light_plane plane;
     plane_tiles tiles;
     float error = 0;  ///< of coordinates on the plane
-    std::vector<plane_caster> casters;
-    glm::dvec2 scale{};                     ///< tiles per unit
-    std::vector<std::uint32_t> occupant{};  ///< by tile: the only caster that touches it, or one of the constants
+    insonify::detail::dynamic_array<plane_caster> casters;
+    glm::dvec2 scale{};  ///< tiles per unit
+    insonify::detail::dynamic_array<std::uint32_t>
+        occupant{};  ///< by tile: the only caster that touches it, or one of the constants
 
     /// The tile that contains a point of the plane, or the nearest one.
     std::size_t tile_of(const glm::dvec3& at) const {
@@ -107,8 +108,8 @@ class tiled_planes {
 
   private:
     std::optional<point_light> near_light_;
-    std::vector<tiled_plane> planes_;
-    std::vector<std::size_t> starts_{0};  ///< first tile of each plane, then their number
+    insonify::detail::dynamic_array<tiled_plane> planes_;
+    insonify::detail::dynamic_array<std::size_t> starts_{0};  ///< first tile of each plane, then their number
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS

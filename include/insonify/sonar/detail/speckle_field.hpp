@@ -1,6 +1,7 @@
 // The random fields of speckle, keyed by side, ping and bin: correlated complex Gaussian noise, and gamma textures.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/detail/echo_statistics.hpp>
 #include <insonify/core/detail/tap_kernels.hpp>
 #include <insonify/core/image.hpp>
@@ -10,7 +11,6 @@
 #include <insonify/sonar/side_scan/side_scan.hpp>
 
 #include <span>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -95,7 +95,7 @@ class speckle_field {
         for (int i = 0; i < blurred.height(); ++i) row(first - reach + i, look, blurred.row(i));
         if (reach == 0) return blurred;
         image<float> field(static_cast<int>(2 * bins_), count);
-        std::vector<const float*> rows(static_cast<std::size_t>(2 * reach + 1));
+        dynamic_array<const float*> rows(static_cast<std::size_t>(2 * reach + 1));
         for (int i = 0; i < count; ++i) {
             for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = blurred.row(i + static_cast<int>(k)).data();
             dispatch(taps_across_rows{along_, rows, field.row(i).data(), 2 * bins_}, best_isa());
@@ -108,7 +108,7 @@ class speckle_field {
     void row(std::int64_t ping, std::uint32_t look, std::span<float> out) const {
         const std::size_t reach = across_.size() - 1, margin = reach + (reach & 1);
         const std::size_t blocks = (bins_ + 2 * margin + 1) / 2;
-        std::vector<float> white(4 * (blocks + speckle_draw_kernel::max_lanes));
+        dynamic_array<float> white(4 * (blocks + speckle_draw_kernel::max_lanes));
         const std::uint32_t first = 0u - static_cast<std::uint32_t>(margin);
         dispatch(speckle_draw_kernel{noise_.key(), ping_noise::counter(ping, first, look), white.data(), blocks},
                  best_isa());
@@ -117,7 +117,7 @@ class speckle_field {
 
     ping_noise noise_;
     std::size_t bins_;
-    std::vector<float> across_, along_;
+    dynamic_array<float> across_, along_;
 };
 
 /// The texture of the K-distribution: gamma-distributed at the nodes of a lattice. A bin takes the value of one of the

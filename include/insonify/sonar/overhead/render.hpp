@@ -1,6 +1,7 @@
 // Draws overhead pictures: samples the seabed in view, draws it and the targets, casts shadows, and labels pixels.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/raster/draw.hpp>
 #include <insonify/shadow/exact.hpp>
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <limits>
 #include <utility>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -45,7 +45,7 @@ class overhead_painter {
     frame<Labels> paint(E& ex) {
         place_objects();
         if constexpr (casts) {
-            std::vector<shadow::caster> casters;
+            dynamic_array<shadow::caster> casters;
             for (const placed_mesh& t : targets_) casters.push_back(as_caster(view_, t));
             if (has_bottom()) casters.push_back(as_caster(view_, bottom_in_rig_));
             const shadow::point_bounds bounds{receivers(), view_.ground_sampling(), options_.level};
@@ -133,7 +133,8 @@ class overhead_painter {
         std::uint64_t ids = 0;
         const auto add = [&](const placed_mesh& placed, std::uint32_t caster, std::uint16_t instance,
                              std::uint8_t seabed, const material& m) {
-            surface& s = surfaces_.emplace_back();
+            surfaces_.push_back({});
+            surface& s = surfaces_.back();
             s.mesh = placed.shape;
             s.to_rig = placed.to_rig;
             s.first_id = static_cast<std::uint32_t>(ids);
@@ -162,8 +163,8 @@ class overhead_painter {
 
     /// Decides whole triangles before they are drawn, lit or dark. The surfaces point to the results.
     template <class Occlusion, executor E>
-    std::vector<uninitialized_array<shadow::decision>> settle_triangles(const Occlusion& occlusion, E& ex) {
-        std::vector<uninitialized_array<shadow::decision>> known;
+    dynamic_array<uninitialized_array<shadow::decision>> settle_triangles(const Occlusion& occlusion, E& ex) {
+        dynamic_array<uninitialized_array<shadow::decision>> known;
         if constexpr (shadow::triangle_occlusion<Occlusion>)
             for (surface& s : surfaces_) {
                 // A mesh much finer than the picture has more triangles than points to test.
@@ -233,8 +234,8 @@ class overhead_painter {
     frame<Labels> out_;
     sampled_bottom bottom_;
     placed_mesh bottom_in_rig_;
-    std::vector<surface> surfaces_;
-    std::vector<placed_mesh> targets_;
+    dynamic_array<surface> surfaces_;
+    dynamic_array<placed_mesh> targets_;
 };
 
 template <class Shadow, class Labels, class Law, depth_precision Depth>

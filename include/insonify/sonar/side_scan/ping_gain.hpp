@@ -7,13 +7,13 @@
 // pings, columns are bins.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/filter/concept.hpp>
 #include <insonify/sonar/detail/smooth_noise.hpp>
 #include <insonify/sonar/side_scan/sonar_equation.hpp>
 
 #include <concepts>
 #include <type_traits>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -42,7 +42,7 @@ class column_gain {
     }
 
   private:
-    std::vector<float> factors_;
+    dynamic_array<float> factors_;
 };
 
 /// Pass of a ping_banding.

@@ -6,13 +6,13 @@
 // 8). Intensities are those of a recording after its gain: 1 is a level bottom of reflectivity one under `level_gain`.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/filter/concept.hpp>
 #include <insonify/sonar/detail/smooth_noise.hpp>
 #include <insonify/sonar/side_scan/sonar_equation.hpp>
 
 #include <concepts>
 #include <type_traits>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -60,7 +60,7 @@ class water_law {
 
     Water w_;
     philox_key key_;
-    std::vector<float> steady_;
+    dynamic_array<float> steady_;
     int row_ = -1;
     double begins_ = 0;
 };

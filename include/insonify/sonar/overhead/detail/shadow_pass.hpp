@@ -2,6 +2,7 @@
 // adds the light that arrives to the pixels, and labels shadows with their casters.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/image.hpp>
 #include <insonify/sonar/overhead/detail/light_pass.hpp>
 
@@ -17,7 +18,7 @@ inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// The object that a visibility buffer's id belongs to.
-inline const surface& surface_of(const std::vector<surface>& surfaces, std::uint32_t id) {
+inline const surface& surface_of(const dynamic_array<surface>& surfaces, std::uint32_t id) {
     const auto after = std::upper_bound(surfaces.begin(), surfaces.end(), id,
                                         [](std::uint32_t i, const surface& s) { return i < s.first_id; });
     return *(after - 1);
@@ -34,7 +35,7 @@ class shadow_pass {
     };
 
     /// @param targets  casters numbered below this are targets
-    shadow_pass(const overhead_geometry& view, const std::vector<surface>& surfaces, const images& of,
+    shadow_pass(const overhead_geometry& view, const dynamic_array<surface>& surfaces, const images& of,
                 std::size_t targets, int tile, isa level)
         : view_(view),
           surfaces_(surfaces),
@@ -44,7 +45,7 @@ class shadow_pass {
           tile_pixels_(static_cast<std::size_t>(tile) * static_cast<std::size_t>(tile)),
           run_((std::min)(tiles_.run(), shadow::max_batch / tile_pixels_)),
           level_(level) {
-        for (const surface& s : surfaces) finders_.emplace_back(view, s);
+        for (const surface& s : surfaces) finders_.push_back({view, s});
     }
 
     /// Tests the points of every tile and adds the light that arrives. Occlusion that sees all points at once gets
@@ -52,7 +53,7 @@ class shadow_pass {
     template <class Occlusion, executor E>
     void cast(const Occlusion& occlusion, E& ex) {
         constexpr bool is_collective = shadow::collective_occlusion<Occlusion>;
-        std::vector<std::size_t> unknown(is_collective ? tiles_.count() : 0);  // points of each tile
+        dynamic_array<std::size_t> unknown(is_collective ? tiles_.count() : 0);  // points of each tile
         bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
             scratch room(surfaces_.size(), tile_pixels_);
             for (std::size_t i = first; i < last; ++i) {
@@ -75,7 +76,7 @@ class shadow_pass {
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
 
-    using shown_by_surface = std::vector<std::vector<shown_pixel>>;
+    using shown_by_surface = dynamic_array<dynamic_array<shown_pixel>>;
     /// Memory that the tiles of a run share.
     struct scratch {
         point_batch points;
@@ -124,24 +125,24 @@ class shadow_pass {
     /// pass would take memory for all points.
     /// @param unknown  number of points of each tile
     template <class Occlusion, executor E>
-    void test_together(const Occlusion& occlusion, const std::vector<std::size_t>& unknown, E& ex) {
-        std::vector<std::size_t> starts{0};  // of the points of each run of tiles
+    void test_together(const Occlusion& occlusion, const dynamic_array<std::size_t>& unknown, E& ex) {
+        dynamic_array<std::size_t> starts{0};  // of the points of each run of tiles
         for (std::size_t i = 0; i < tiles_.count(); ++i) {
             if (i % run_ == 0) starts.push_back(starts.back());
             starts.back() += unknown[i];
         }
         point_batch all(starts.back(), memory_of(ex));
         light_arrays light(starts.back(), memory_of(ex));
-        std::vector<point_list> lists;
-        for (std::size_t i = 0; i + 1 < starts.size(); ++i) lists.emplace_back(all, starts[i], starts[i + 1]);
+        dynamic_array<point_list> lists;
+        for (std::size_t i = 0; i + 1 < starts.size(); ++i) lists.push_back({all, starts[i], starts[i + 1]});
         bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
             shown_by_surface shown(surfaces_.size());
             for (std::size_t i = first; i < last; ++i)
                 if (unknown[i] > 0) find_points(i, shown, lists[first / run_]);
         });
         const auto part = [&](std::size_t i) { return light.part(starts[i], lists[i].size()); };
-        std::vector<shadow::points> at;
-        std::vector<shadow::results> into;
+        dynamic_array<shadow::points> at;
+        dynamic_array<shadow::results> into;
         for (std::size_t i = 0; i < lists.size(); ++i)
             for_each_batch(lists[i], part(i), targets_, [&](const shadow::points& p, const shadow::results& s) {
                 at.push_back(p);
@@ -174,8 +175,8 @@ class shadow_pass {
     }
 
     const overhead_geometry& view_;
-    const std::vector<surface>& surfaces_;
-    std::vector<point_finder> finders_;  ///< of the surfaces
+    const dynamic_array<surface>& surfaces_;
+    dynamic_array<point_finder> finders_;  ///< of the surfaces
     images images_;
     std::uint32_t targets_;
     tile_grid tiles_;

@@ -1,6 +1,7 @@
 // Input of the shadow pass: the pixels whose light is undecided, and how much may arrive there.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/detail/uninitialized.hpp>
 #include <insonify/core/image.hpp>
 #include <insonify/core/rect.hpp>
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -153,7 +153,7 @@ class undecided_light {
     tile_grid tiles_{0, 0, 0};
     pixel_marks marks_;
     uninitialized_array<undecided_pixel> pixels_;
-    std::vector<list> lists_;  ///< by tile
+    dynamic_array<list> lists_;  ///< by tile
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS

@@ -1,13 +1,13 @@
 // The bottom below a ping: depths and slopes in the plane of its fan, at equal distances across the track.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/sonar/side_scan/detail/bottom_tiles.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -76,7 +76,7 @@ class bottom_profile {
     double step_;
     std::size_t first_, end_;
     double lowest_ = 0, highest_ = 0;
-    std::vector<bottom_point> points_;
+    dynamic_array<bottom_point> points_;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS

@@ -3,6 +3,7 @@
 // Tiles lie on a lattice of the world, so that a position has the same samples whatever track passes over it.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/executor.hpp>
 #include <insonify/seabed/any.hpp>
 #include <insonify/seabed/detail/lattice.hpp>
@@ -10,7 +11,6 @@
 
 #include <memory>
 #include <span>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -51,7 +51,7 @@ class bottom_tiles {
         const fan_steps steps(from, reach, side());
         lay_out(pings, steps);
         mark(pings, steps);
-        const std::vector<tile_run> runs = number_marked();
+        const dynamic_array<tile_run> runs = number_marked();
         const std::size_t tiles = runs.empty() ? 0 : std::size_t{runs.back().slot} + runs.back().count;
         vertices_.reset(new bottom_vertex[tiles * tile_size]);
         ex.bulk(runs.size(), [&](std::size_t i) { sample(runs[i]); });
@@ -173,8 +173,8 @@ class bottom_tiles {
 
     /// Numbers the marked tiles.
     /// @returns their runs, in the order of the numbers
-    std::vector<tile_run> number_marked() {
-        std::vector<tile_run> runs;
+    dynamic_array<tile_run> number_marked() {
+        dynamic_array<tile_run> runs;
         std::uint32_t next = 0;
         for (std::int64_t y = 0; y < rows_; ++y)
             for (std::int64_t x = 0; x < columns_; ++x) {
@@ -194,8 +194,8 @@ class bottom_tiles {
     /// Samples a run, with a margin of one vertex for the slopes.
     void sample(const tile_run& run) const {
         const std::size_t width = run.count * cells + 3, height = stride + 2;
-        std::vector<float> heights(width * height);
-        std::vector<seabed::type> types(width * height);
+        dynamic_array<float> heights(width * height);
+        dynamic_array<seabed::type> types(width * height);
         for (std::size_t j = 0; j < height; ++j) {
             const auto vertex = [&](std::int64_t tile, std::size_t i) {
                 return static_cast<double>(tile * cells + static_cast<std::int64_t>(i) - 1) * spacing_;
@@ -225,7 +225,7 @@ class bottom_tiles {
     seabed::height_range range_;
     double spacing_, scale_;
     std::int64_t first_x_ = 0, first_y_ = 0, columns_ = 0, rows_ = 0;
-    std::vector<std::uint32_t> slots_;
+    dynamic_array<std::uint32_t> slots_;
     std::unique_ptr<bottom_vertex[]> vertices_;
     std::uint64_t sampled_ = 0;
 };

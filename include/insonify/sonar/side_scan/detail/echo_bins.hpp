@@ -1,13 +1,13 @@
 // The range bins of one ping: power, lengths of lit and dark seabed, and the label that has most of each bin.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/side_scan/detail/label_tally.hpp>
 
 #include <algorithm>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -73,7 +73,7 @@ class echo_bins {
     }
 
   private:
-    std::vector<echo_bin> bins_;
+    dynamic_array<echo_bin> bins_;
     label_tally echoing_, casting_, types_;
 };
 

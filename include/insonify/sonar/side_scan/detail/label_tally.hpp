@@ -1,11 +1,11 @@
 // Sums of length or power by range bin and label, to find the label that has most of a bin.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/numeric.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -53,8 +53,8 @@ class label_tally {
         std::uint32_t next;
         std::uint16_t label;
     };
-    std::vector<std::uint32_t> heads_;
-    std::vector<entry> entries_;
+    dynamic_array<std::uint32_t> heads_;
+    dynamic_array<entry> entries_;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS

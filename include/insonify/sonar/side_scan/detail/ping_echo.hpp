@@ -6,6 +6,7 @@
 // rays met in front of it.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/seabed/any.hpp>
 #include <insonify/sonar/side_scan/detail/bottom_profile.hpp>
 #include <insonify/sonar/side_scan/detail/echo_bins.hpp>
@@ -251,7 +252,7 @@ class ping_tracer {
     double top_ = -1e30, foot_ = 1e30;         ///< of all targets
     std::array<double, 3> attitude_{0, 1, 1};  ///< sine and cosine of the roll, cosine of the pitch
     ping_fan fan_;
-    std::vector<float> ray_power_;
+    dynamic_array<float> ray_power_;
     target_hits hits_;
     bool has_targets_ = false;
     echo_bins bins_;

@@ -4,10 +4,10 @@
 // angles: neighbours are at most a bin apart on a vertical wall at the largest range.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/numeric.hpp>
 
 #include <algorithm>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -118,7 +118,7 @@ class ping_fan {
 
   private:
     fan_shape shape_{0, 0, 0};
-    std::vector<ray> rays_;
+    dynamic_array<ray> rays_;
     double spacing_ = 1, first_ = 0;                          ///< on level ground: step of the tangent, first number
     double wall_first_ = 0, wall_from_ = 0, wall_angle_ = 1;  ///< beyond: first number, first angle, step
 };

@@ -1,6 +1,7 @@
 // Records pings one by one: their echoes, the sonar equation's parts over range and along the track, and labels.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/detail/filled.hpp>
 #include <insonify/sonar/detail/checked_materials.hpp>
 #include <insonify/sonar/side_scan/detail/ping_echo.hpp>
@@ -72,16 +73,16 @@ class recorder {
         bottom_tiles bottom(scene_.seabed, out_.stats.cell);
         const seabed::height_range relief = scene_.seabed.prepare().range();
         const double cell = out_.stats.cell;
-        std::vector<float> over_range;
+        dynamic_array<float> over_range;
         if (equation_.has_ranges())
             for (std::size_t b = 0; b < static_cast<std::size_t>(window_.bins); ++b)
                 over_range.push_back(static_cast<float>(
                     equation_.over_range(slant_of(b, static_cast<double>(window_.altitude)), spacing())));
         for (std::size_t start = 0; start < track_.size(); start += leg) {
             const std::size_t count = (std::min)(leg, track_.size() - start);
-            std::vector<ping_frame> frames;
+            dynamic_array<ping_frame> frames;
             frames.reserve(count);
-            for (std::size_t i = 0; i < count; ++i) frames.emplace_back(track_[start + i], window_.looks);
+            for (std::size_t i = 0; i < count; ++i) frames.push_back({track_[start + i], window_.looks});
             double begin = tracer::reach(window_, cell);
             for (const ping_frame& p : frames)
                 begin = (std::min)(begin, tracer::start(window_, cell, relief, p, targets_));
@@ -119,7 +120,7 @@ class recorder {
     /// Convolves a row with a pulse of `length` bins. Values beyond its ends are those at the ends.
     static void convolve_pulse(std::span<float> row, double length) {
         if (!(length > 1)) return;
-        const std::vector<float> source(row.begin(), row.end());
+        const dynamic_array<float> source(row);
         const std::int64_t reach = -numeric::floor_to_int(-0.5 * (length - 1)),
                            bins = static_cast<std::int64_t>(row.size());
         std::fill(row.begin(), row.end(), 0.0f);
@@ -167,7 +168,7 @@ class recorder {
     void amplify(executor_ref ex) {
         const auto noise = static_cast<float>(equation_.noise());
         bulk_ranges(ex, track_.size(), 64, [&](std::size_t from, std::size_t to) {
-            std::vector<float> gain;
+            dynamic_array<float> gain;
             double altitude = 0;
             for (std::size_t i = from; i < to; ++i) {
                 if (gain.empty() || track_[i].position.z != altitude) {
@@ -191,7 +192,7 @@ class recorder {
     const erased_options<Labels, Law>& options_;
     const equation_interface& equation_;
     bottom_materials materials_;
-    std::vector<sliced_target> targets_;
+    dynamic_array<sliced_target> targets_;
     frame<Labels> out_;
 };
 

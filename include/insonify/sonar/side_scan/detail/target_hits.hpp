@@ -5,6 +5,7 @@
 // thinner than the spacing of rays therefore returns its energy in every ping that meets it.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/side_scan/detail/ping_fan.hpp>
 #include <insonify/sonar/side_scan/detail/target_slices.hpp>
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <limits>
 #include <span>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -226,13 +226,13 @@ class target_hits {
     static constexpr std::size_t max_parts = 64;
 
     const ping_fan* fan_ = nullptr;
-    std::vector<segment> segments_;
-    std::vector<part> partial_;
-    std::vector<candidate> nearest_;  ///< by ray: the nearest segment that covers all of its width
-    std::vector<target_hit> hits_;
-    std::vector<std::uint32_t> first_;  ///< by ray: index of its first hit
-    std::vector<occluder_of_ray> occluders_;
-    std::vector<double> ends_;
+    dynamic_array<segment> segments_;
+    dynamic_array<part> partial_;
+    dynamic_array<candidate> nearest_;  ///< by ray: the nearest segment that covers all of its width
+    dynamic_array<target_hit> hits_;
+    dynamic_array<std::uint32_t> first_;  ///< by ray: index of its first hit
+    dynamic_array<occluder_of_ray> occluders_;
+    dynamic_array<double> ends_;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS

@@ -1,6 +1,7 @@
 // Cross-sections of targets with the plane of a ping.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/geometry/detail/plane_tree.hpp>
 #include <insonify/sonar/scene.hpp>
 #include <insonify/sonar/side_scan/side_scan.hpp>
@@ -105,13 +106,13 @@ class sliced_target {
 };
 
 /// The targets of a scene; those with the same mesh share its tree.
-inline std::vector<sliced_target> sliced_targets(const scene& s) {
-    std::vector<sliced_target> all;
+inline dynamic_array<sliced_target> sliced_targets(const scene& s) {
+    dynamic_array<sliced_target> all;
     std::map<const mesh*, std::shared_ptr<const plane_tree>> trees;
     for (const target& t : s.targets) {
         std::shared_ptr<const plane_tree>& tree = trees[&*t.shape];
         if (tree == nullptr) tree = std::make_shared<const plane_tree>(t.shape);
-        all.emplace_back(t, tree);
+        all.push_back({t, tree});
     }
     return all;
 }
