@@ -10029,9 +10029,9 @@ class light_frame {
   public:
     /// @throws invalid_input for an elevation outside (0, pi / 2] or an azimuth that isn't finite
     explicit light_frame(const directional_light& light) {
-        detail::require(light.elevation > 0 && light.elevation <= numeric::pi / 2 + 1e-7, "elevation", light.elevation,
-                        "above 0 and at most pi / 2");
-        detail::require(numeric::is_finite(light.azimuth), "azimuth", light.azimuth, "a finite angle");
+        insonify::detail::require(light.elevation > 0 && light.elevation <= numeric::pi / 2 + 1e-7, "elevation",
+                                  light.elevation, "above 0 and at most pi / 2");
+        insonify::detail::require(numeric::is_finite(light.azimuth), "azimuth", light.azimuth, "a finite angle");
         const auto [sin_azimuth, cos_azimuth] = numeric::sin_cos(light.azimuth);
         const auto [sin_elevation, cos_elevation] = numeric::sin_cos(light.elevation);
         travel_ = {cos_azimuth, sin_azimuth};
