@@ -67,17 +67,22 @@ class dynamic_array {
     INSONIFY_TAGGED void resize(std::size_t count) {
         if (count < size_) return shrink(count);
         make_room(count);
-        for (; size_ < count; ++size_) ::new (static_cast<void*>(data_ + size_)) T();
+        construct_to(count);
     }
     INSONIFY_TAGGED void assign(std::size_t count, const T& value) {
         shrink(0);
         reserve(count);
-        for (; size_ < count; ++size_) ::new (static_cast<void*>(data_ + size_)) T(value);
+        construct_to(count, value);
     }
     /// `values` are of another array.
     INSONIFY_TAGGED void append(std::span<const T> values) {
         make_room(size_ + values.size());
-        for (const T& value : values) ::new (static_cast<void*>(data_ + size_++)) T(value);
+        if constexpr (std::is_trivially_copyable_v<T>) {
+            if (!values.empty()) std::memcpy(static_cast<void*>(data_ + size_), values.data(), values.size_bytes());
+            size_ += values.size();
+        } else {
+            for (const T& value : values) ::new (static_cast<void*>(data_ + size_++)) T(value);
+        }
     }
     INSONIFY_TAGGED void push_back(T value) {
         make_room(size_ + 1);
@@ -114,6 +119,15 @@ class dynamic_array {
     /// At least doubles the capacity where it has to grow, so that appending takes constant time on average.
     INSONIFY_MEMBER void make_room(std::size_t count) {
         if (count > capacity_) reserve((std::max)(count, 2 * capacity_));
+    }
+    template <class... From>
+    INSONIFY_TAGGED void construct_to(std::size_t count, const From&... from) {
+        T* const elements = data_;
+        for (std::size_t i = size_; i < count; ++i) {
+            ::new (static_cast<void*>(elements + i)) T(from...);
+            if constexpr (!std::is_trivially_destructible_v<T>) size_ = i + 1;  // destroyed if a later one throws
+        }
+        size_ = count;
     }
     INSONIFY_TAGGED void shrink(std::size_t count) {
         if constexpr (std::is_trivially_destructible_v<T>)
