@@ -690,11 +690,31 @@ class context {
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
+// ------------ insonify/core/detail/array_bytes.hpp ------------------------------------------------------
+// Size of an array in bytes, for allocation.
+
+#include <cstdint>
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// A size that would overflow is clamped to one that no machine has, so that its allocation throws like any other that
+/// is too large.
+template <class T>
+INSONIFY_MEMBER constexpr std::size_t array_bytes(std::size_t count) {
+    constexpr std::size_t largest = PTRDIFF_MAX / sizeof(T);
+    return (std::min)(count, largest) * sizeof(T);
+}
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
 // ------------ insonify/core/detail/uninitialized.hpp ----------------------------------------------------
 // Arrays whose elements start uninitialized, for storage that is overwritten at once. Large ones may draw on a
 // context's memory.
 
-#include <cstdint>
 #include <utility>
 
 namespace insonify {
@@ -780,9 +800,7 @@ class uninitialized_array {
     /// Discards all elements and creates `count` new ones.
     /// @throws std::bad_alloc
     INSONIFY_TAGGED void resize(std::size_t count) {
-        // Counts whose bytes would overflow are clamped to a size that no machine has, so that they throw too.
-        constexpr std::size_t largest = PTRDIFF_MAX / sizeof(T);
-        const std::size_t bytes = (std::min)(count, largest) * sizeof(T);
+        const std::size_t bytes = array_bytes<T>(count);
         std::destroy_n(data(), size_);
         size_ = 0;
         if (bytes > memory_.bytes()) memory_ = memory_block(bytes, memory_.pool());
@@ -2621,8 +2639,8 @@ INSONIFY_ARITHMETIC_END
 // An array that grows, for the library's own working data.
 //
 // std::vector serves the public types. Each of its instantiations compiles some fifteen functions, and the library has
-// forty element types of its own: with vectors throughout, a header-only unit took a fifth longer to compile. This
-// array has the members that the library uses, as plain loops.
+// forty element types of its own: with vectors throughout, the README's twenty lines took a quarter longer to compile
+// without optimization. This array has the members that the library uses, as plain loops.
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
@@ -2655,9 +2673,7 @@ class dynamic_array {
     /// @throws std::bad_alloc
     INSONIFY_TAGGED void reserve(std::size_t count) {
         if (count <= capacity_) return;
-        // Counts whose bytes would overflow are clamped to a size that no machine has, so that they throw too.
-        constexpr std::size_t largest = PTRDIFF_MAX / sizeof(T);
-        T* moved = static_cast<T*>(::operator new((std::min)(count, largest) * sizeof(T)));
+        T* const moved = static_cast<T*>(::operator new(array_bytes<T>(count)));
         if constexpr (std::is_trivially_copyable_v<T>) {
             if (size_ > 0) std::memcpy(static_cast<void*>(moved), data_, size_ * sizeof(T));
         } else {
@@ -7944,6 +7960,7 @@ concept single_typed = requires(const M& m) {
 
 namespace detail::inline INSONIFY_FLAGS {
 
+using insonify::detail::dynamic_array;
 using insonify::detail::refuse;
 using insonify::detail::require;
 using insonify::detail::require_fraction;
@@ -8231,6 +8248,7 @@ inline namespace INSONIFY_FLAGS {
 /// A model for `any` to share. In the compiled form the built-in models have overloads, compiled once.
 template <model M>
 std::shared_ptr<const detail::model_interface> hold(M m) {
+    // By way of a unique pointer, all models have the same type of control block.
     return std::unique_ptr<const detail::model_interface>(new detail::held_model<M>(std::move(m)));
 }
 
@@ -8827,7 +8845,7 @@ class power_law_noise {
             o.noise.template add<N>(part, kept * o.amplitude, values);
         }
     }
-    insonify::detail::dynamic_array<octave> octaves_;
+    dynamic_array<octave> octaves_;
     double slope_ = 0;
 };
 
@@ -9412,7 +9430,7 @@ class trawl_furrows {
         return depth_ * strength * (off < 1 ? 0.3f - 1.3f * inner * inner : 0.3f * fade(clamp01(2 - off)));
     }
 
-    insonify::detail::dynamic_array<family> families_;
+    dynamic_array<family> families_;
     float depth_, half_width_ = 0;  // the latter in strips
     double width_;
     cell_hash hash_;
@@ -9837,7 +9855,7 @@ class rock_sampler {
         const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(r.sizes) - 2));
         float share = 1, height = 0.8f * r.relief, largest = 1;
         float size = r.block;
-        insonify::detail::dynamic_array<float> shares;
+        detail::dynamic_array<float> shares;
         for (; shares.empty() || size >= r.smallest; size /= 2, share *= ratio) {
             shares.push_back(share);
             largest = (std::max)(largest, share);
@@ -9906,8 +9924,8 @@ class rock_sampler {
         }
     }
 
-    insonify::detail::dynamic_array<detail::gradient_noise> outcrops_;
-    insonify::detail::dynamic_array<detail::block_layer> blocks_;
+    detail::dynamic_array<detail::gradient_noise> outcrops_;
+    detail::dynamic_array<detail::block_layer> blocks_;
     detail::power_law_noise surface_;
     float relief_;
 };
@@ -14935,6 +14953,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
+using insonify::detail::dynamic_array;
+
 /// The largest u of square blocks of cells.
 class block_heights {
   public:
@@ -14946,7 +14966,7 @@ class block_heights {
         highest_ = insonify::detail::uninitialized_array<float>(
             static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), insonify::detail::memory_of(ex));
         bulk_ranges(ex, static_cast<std::size_t>(columns_), 4, [&](std::size_t from, std::size_t to) {
-            insonify::detail::dynamic_array<float> row(static_cast<std::size_t>(grid.rows));
+            dynamic_array<float> row(static_cast<std::size_t>(grid.rows));
             for (auto column = static_cast<int>(from); column < static_cast<int>(to); ++column)
                 insonify::detail::dispatch(kernel{grid, heights, column * side, row.data(),
                                                   highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_, rows_},
@@ -15269,6 +15289,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
+using insonify::detail::dynamic_array;
+
 /// A rectangle of a light's plane, cut into tiles.
 struct plane_tiles {
     glm::dvec2 lower{0}, size{0};  ///< of the whole
@@ -15462,7 +15484,7 @@ class plane_caster {
                                        level);
         });
         const std::size_t grain = (std::max)(std::size_t{4096}, (triangles_.size() / 64 + 16) / 16 * 16);
-        insonify::detail::dynamic_array<insonify::detail::tile_runs> chunks((triangles_.size() + grain - 1) / grain);
+        dynamic_array<insonify::detail::tile_runs> chunks((triangles_.size() + grain - 1) / grain);
         bulk_ranges(ex, triangles_.size(), grain, [&](std::size_t first, std::size_t last) {
             insonify::detail::dispatch(
                 tile_assembly_kernel{vertices_.data(), triangles_.data(), first, last, tiles, chunks[first / grain]},
@@ -15499,6 +15521,8 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
+
+using insonify::detail::dynamic_array;
 
 /// Batch of a point and its index in the batch, packed into 32 bits.
 class batch_index {
@@ -15614,12 +15638,11 @@ class receiver_cells {
         return starts_[static_cast<std::size_t>(row * columns_ + column)];
     }
 
-    insonify::detail::dynamic_array<float> u, v, height;  ///< in the order of cells, with room for one more vector
-    insonify::detail::dynamic_array<batch_index> place;
-    insonify::detail::dynamic_array<std::uint32_t> mesh, triangle;
-    insonify::detail::dynamic_array<std::uint32_t>
-        lit_mesh;  ///< the mesh of a point whose facet faces the light, or invalid_id
-    insonify::detail::dynamic_array<std::int32_t> caster;  ///< that blocks it, or open, or closed
+    dynamic_array<float> u, v, height;  ///< in the order of cells, with room for one more vector
+    dynamic_array<batch_index> place;
+    dynamic_array<std::uint32_t> mesh, triangle;
+    dynamic_array<std::uint32_t> lit_mesh;  ///< the mesh of a point whose facet faces the light, or invalid_id
+    dynamic_array<std::int32_t> caster;     ///< that blocks it, or open, or closed
 
   private:
     static constexpr int widest = 128;          // rows
@@ -15637,8 +15660,8 @@ class receiver_cells {
     float lowest_ = 0, highest_ = 0, largest_ = 0;
     bool is_limited_ = false;
     mesh_range lit_, averted_;  ///< meshes of points that face the light, and of those that face away
-    insonify::detail::dynamic_array<std::uint32_t> starts_, next_, limit_;
-    insonify::detail::dynamic_array<std::uint16_t> keys_;
+    dynamic_array<std::uint32_t> starts_, next_, limit_;
+    dynamic_array<std::uint16_t> keys_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
@@ -15877,10 +15900,9 @@ struct tiled_plane {
     light_plane plane;
     plane_tiles tiles;
     float error = 0;  ///< of coordinates on the plane
-    insonify::detail::dynamic_array<plane_caster> casters;
-    glm::dvec2 scale{};  ///< tiles per unit
-    insonify::detail::dynamic_array<std::uint32_t>
-        occupant{};  ///< by tile: the only caster that touches it, or one of the constants
+    dynamic_array<plane_caster> casters;
+    glm::dvec2 scale{};                       ///< tiles per unit
+    dynamic_array<std::uint32_t> occupant{};  ///< by tile: the only caster that touches it, or one of the constants
 
     /// The tile that contains a point of the plane, or the nearest one.
     std::size_t tile_of(const glm::dvec3& at) const {
@@ -15948,8 +15970,8 @@ class tiled_planes {
 
   private:
     std::optional<point_light> near_light_;
-    insonify::detail::dynamic_array<tiled_plane> planes_;
-    insonify::detail::dynamic_array<std::size_t> starts_{0};  ///< first tile of each plane, then their number
+    dynamic_array<tiled_plane> planes_;
+    dynamic_array<std::size_t> starts_{0};  ///< first tile of each plane, then their number
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
@@ -16007,8 +16029,8 @@ class points_by_tile {
     using receivers_of = insonify::detail::uninitialized_array<receiver>;
     /// A run of batches.
     struct run {
-        std::size_t first = 0;                                  ///< of its points among all
-        insonify::detail::dynamic_array<std::uint32_t> starts;  ///< of tiles, from there; empty if no tile has a caster
+        std::size_t first = 0;                ///< of its points among all
+        dynamic_array<std::uint32_t> starts;  ///< of tiles, from there; empty if no tile has a caster
 
         std::span<const receiver> of(const receivers_of& all, std::size_t tile) const {
             if (starts.empty()) return {};
@@ -16048,12 +16070,12 @@ class points_by_tile {
             }
         }
         for (std::size_t tile = 0; tile < tiles; ++tile) out.starts[tile + 1] += out.starts[tile];
-        insonify::detail::dynamic_array<std::uint32_t> next = out.starts;
+        dynamic_array<std::uint32_t> next = out.starts;
         for (std::size_t i = 0; i < count; ++i) sorted_[out.first + next[keys[i]]++] = found[i];
     }
 
     const tiled_planes& planes_;
-    insonify::detail::dynamic_array<run> runs_;
+    dynamic_array<run> runs_;
     receivers_of sorted_;
 };
 
@@ -16130,7 +16152,7 @@ class exact_occlusion {
         insonify::detail::uninitialized_array<decision> answers(c.mesh.triangles.size(),
                                                                 insonify::detail::memory_of(ex));
         // Triangles that other casters may shade are left to the test of points.
-        insonify::detail::dynamic_array<std::pair<glm::dvec2, glm::dvec2>> shared;
+        detail::dynamic_array<std::pair<glm::dvec2, glm::dvec2>> shared;
         const detail::tiled_plane& plane = planes_.front();
         const detail::ray_feet feet(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
@@ -16151,8 +16173,8 @@ class exact_occlusion {
     /// See occlusion.
     void test(const points& at, const results& into) const {
         serial_executor serial;
-        insonify::detail::dynamic_array<points> parts;
-        insonify::detail::dynamic_array<results> into_parts;
+        detail::dynamic_array<points> parts;
+        detail::dynamic_array<results> into_parts;
         for (std::size_t first = 0; first < at.size(); first += max_batch) {
             const std::size_t count = (std::min)(max_batch, at.size() - first);
             parts.push_back({at.x.subspan(first, count), at.y.subspan(first, count), at.z.subspan(first, count),
@@ -16321,12 +16343,11 @@ class exact_occlusion {
         return (numeric::determinant(c.placement.linear) < 0) != state.plane.is_mirrored();
     }
 
-    insonify::detail::dynamic_array<caster> casters_;
+    detail::dynamic_array<caster> casters_;
     isa level_;
     detail::light_rays rays_;
     detail::tiled_planes planes_;
-    insonify::detail::dynamic_array<std::optional<detail::grid_caster>>
-        grids_;  ///< of the casters, under parallel light
+    detail::dynamic_array<std::optional<detail::grid_caster>> grids_;  ///< of the casters, under parallel light
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -16791,7 +16812,7 @@ void tessellate_into(Mesh& result, const heightfield& field, E& ex, glm::ivec2 f
     result.normals.resize(heights.size());
 
     // Write the vertices and count the triangles of each row of cells.
-    insonify::detail::dynamic_array<std::size_t> first_triangle(height, 0);
+    detail::dynamic_array<std::size_t> first_triangle(height, 0);
     ex.bulk(height, [&](std::size_t j) {
         row_normals(field, static_cast<int>(j), &result.normals[j * width]).compute();
         for (std::size_t i = 0; i < width; ++i) result.positions[j * width + i] = position_at(field, i, j, first);
@@ -22227,7 +22248,7 @@ class mixed_sampler {
         detail::border edge;
     };
     any_sampler base_;
-    insonify::detail::dynamic_array<prepared_layer> layers_;
+    detail::dynamic_array<prepared_layer> layers_;
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -22699,8 +22720,7 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
     const lattice_coordinate v(line.y / step);
     const std::int64_t first = numeric::floor_to_int(line.x(0) / step) - 7;
     const std::int64_t last = numeric::floor_to_int(line.x(heights.size() - 1) / step) + 8;
-    insonify::detail::dynamic_array<float> nodes(static_cast<std::size_t>(last - first + 1)),
-        column(nodes.size(), 0.0f);
+    dynamic_array<float> nodes(static_cast<std::size_t>(last - first + 1)), column(nodes.size(), 0.0f);
     const auto up = spline_weights(v.fraction);
     for (std::size_t j = 0; j < 16; ++j) {
         const double y = step * static_cast<double>(v.cell - 7 + static_cast<std::int64_t>(j));
@@ -22817,7 +22837,7 @@ class sculpt_sampler {
         detail::ground_rect bounds;
     };
     any_sampler ground_;
-    insonify::detail::dynamic_array<bounded_edit> edits_;
+    detail::dynamic_array<bounded_edit> edits_;
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -23332,7 +23352,7 @@ class penumbra_occlusion {
         for (const points& some : at) count += some.size();
         insonify::detail::uninitialized_array<float> lit(count);
         insonify::detail::uninitialized_array<std::uint32_t> blocking(count);
-        insonify::detail::dynamic_array<results> one;
+        detail::dynamic_array<results> one;
         count = 0;
         for (const points& some : at) {
             one.push_back(
@@ -23401,9 +23421,9 @@ class penumbra_occlusion {
         for (float& lit : into.lit) lit /= static_cast<float>(samples_);
     }
 
-    insonify::detail::dynamic_array<caster> casters_;
+    detail::dynamic_array<caster> casters_;
     int samples_;
-    insonify::detail::dynamic_array<sample> lights_;  ///< the middle first
+    detail::dynamic_array<sample> lights_;  ///< the middle first
 };
 
 }  // namespace INSONIFY_FLAGS

@@ -97,6 +97,7 @@ inline namespace INSONIFY_FLAGS {
 /// A model for `any` to share. In the compiled form the built-in models have overloads, compiled once.
 template <model M>
 std::shared_ptr<const detail::model_interface> hold(M m) {
+    // By way of a unique pointer, all models have the same type of control block.
     return std::unique_ptr<const detail::model_interface>(new detail::held_model<M>(std::move(m)));
 }
 

@@ -234,8 +234,7 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
     const lattice_coordinate v(line.y / step);
     const std::int64_t first = numeric::floor_to_int(line.x(0) / step) - 7;
     const std::int64_t last = numeric::floor_to_int(line.x(heights.size() - 1) / step) + 8;
-    insonify::detail::dynamic_array<float> nodes(static_cast<std::size_t>(last - first + 1)),
-        column(nodes.size(), 0.0f);
+    dynamic_array<float> nodes(static_cast<std::size_t>(last - first + 1)), column(nodes.size(), 0.0f);
     const auto up = spline_weights(v.fraction);
     for (std::size_t j = 0; j < 16; ++j) {
         const double y = step * static_cast<double>(v.cell - 7 + static_cast<std::int64_t>(j));

@@ -85,7 +85,7 @@ class mixed_sampler {
         detail::border edge;
     };
     any_sampler base_;
-    insonify::detail::dynamic_array<prepared_layer> layers_;
+    detail::dynamic_array<prepared_layer> layers_;
 };
 
 }  // namespace INSONIFY_FLAGS

@@ -14,6 +14,7 @@
 // see there.
 #pragma once
 
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/seabed/registry.hpp>
 
 #include <algorithm>
@@ -117,6 +118,7 @@ concept single_typed = requires(const M& m) {
 
 namespace detail::inline INSONIFY_FLAGS {
 
+using insonify::detail::dynamic_array;
 using insonify::detail::refuse;
 using insonify::detail::require;
 using insonify::detail::require_fraction;

@@ -59,7 +59,7 @@ class rock_sampler {
         const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(r.sizes) - 2));
         float share = 1, height = 0.8f * r.relief, largest = 1;
         float size = r.block;
-        insonify::detail::dynamic_array<float> shares;
+        detail::dynamic_array<float> shares;
         for (; shares.empty() || size >= r.smallest; size /= 2, share *= ratio) {
             shares.push_back(share);
             largest = (std::max)(largest, share);
@@ -128,8 +128,8 @@ class rock_sampler {
         }
     }
 
-    insonify::detail::dynamic_array<detail::gradient_noise> outcrops_;
-    insonify::detail::dynamic_array<detail::block_layer> blocks_;
+    detail::dynamic_array<detail::gradient_noise> outcrops_;
+    detail::dynamic_array<detail::block_layer> blocks_;
     detail::power_law_noise surface_;
     float relief_;
 };

@@ -94,7 +94,7 @@ class sculpt_sampler {
         detail::ground_rect bounds;
     };
     any_sampler ground_;
-    insonify::detail::dynamic_array<bounded_edit> edits_;
+    detail::dynamic_array<bounded_edit> edits_;
 };
 
 }  // namespace INSONIFY_FLAGS

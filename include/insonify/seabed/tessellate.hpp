@@ -49,7 +49,7 @@ void tessellate_into(Mesh& result, const heightfield& field, E& ex, glm::ivec2 f
     result.normals.resize(heights.size());
 
     // Write the vertices and count the triangles of each row of cells.
-    insonify::detail::dynamic_array<std::size_t> first_triangle(height, 0);
+    detail::dynamic_array<std::size_t> first_triangle(height, 0);
     ex.bulk(height, [&](std::size_t j) {
         row_normals(field, static_cast<int>(j), &result.normals[j * width]).compute();
         for (std::size_t i = 0; i < width; ++i) result.positions[j * width + i] = position_at(field, i, j, first);

@@ -74,7 +74,7 @@ class exact_occlusion {
         insonify::detail::uninitialized_array<decision> answers(c.mesh.triangles.size(),
                                                                 insonify::detail::memory_of(ex));
         // Triangles that other casters may shade are left to the test of points.
-        insonify::detail::dynamic_array<std::pair<glm::dvec2, glm::dvec2>> shared;
+        detail::dynamic_array<std::pair<glm::dvec2, glm::dvec2>> shared;
         const detail::tiled_plane& plane = planes_.front();
         const detail::ray_feet feet(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
@@ -95,8 +95,8 @@ class exact_occlusion {
     /// See occlusion.
     void test(const points& at, const results& into) const {
         serial_executor serial;
-        insonify::detail::dynamic_array<points> parts;
-        insonify::detail::dynamic_array<results> into_parts;
+        detail::dynamic_array<points> parts;
+        detail::dynamic_array<results> into_parts;
         for (std::size_t first = 0; first < at.size(); first += max_batch) {
             const std::size_t count = (std::min)(max_batch, at.size() - first);
             parts.push_back({at.x.subspan(first, count), at.y.subspan(first, count), at.z.subspan(first, count),
@@ -265,12 +265,11 @@ class exact_occlusion {
         return (numeric::determinant(c.placement.linear) < 0) != state.plane.is_mirrored();
     }
 
-    insonify::detail::dynamic_array<caster> casters_;
+    detail::dynamic_array<caster> casters_;
     isa level_;
     detail::light_rays rays_;
     detail::tiled_planes planes_;
-    insonify::detail::dynamic_array<std::optional<detail::grid_caster>>
-        grids_;  ///< of the casters, under parallel light
+    detail::dynamic_array<std::optional<detail::grid_caster>> grids_;  ///< of the casters, under parallel light
 };
 
 }  // namespace INSONIFY_FLAGS

@@ -58,7 +58,7 @@ class penumbra_occlusion {
         for (const points& some : at) count += some.size();
         insonify::detail::uninitialized_array<float> lit(count);
         insonify::detail::uninitialized_array<std::uint32_t> blocking(count);
-        insonify::detail::dynamic_array<results> one;
+        detail::dynamic_array<results> one;
         count = 0;
         for (const points& some : at) {
             one.push_back(
@@ -127,9 +127,9 @@ class penumbra_occlusion {
         for (float& lit : into.lit) lit /= static_cast<float>(samples_);
     }
 
-    insonify::detail::dynamic_array<caster> casters_;
+    detail::dynamic_array<caster> casters_;
     int samples_;
-    insonify::detail::dynamic_array<sample> lights_;  ///< the middle first
+    detail::dynamic_array<sample> lights_;  ///< the middle first
 };
 
 }  // namespace INSONIFY_FLAGS

@@ -2,11 +2,11 @@
 // context's memory.
 #pragma once
 
+#include <insonify/core/detail/array_bytes.hpp>
 #include <insonify/core/detail/block_pool.hpp>
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <new>
 #include <utility>
@@ -94,9 +94,7 @@ class uninitialized_array {
     /// Discards all elements and creates `count` new ones.
     /// @throws std::bad_alloc
     INSONIFY_TAGGED void resize(std::size_t count) {
-        // Counts whose bytes would overflow are clamped to a size that no machine has, so that they throw too.
-        constexpr std::size_t largest = PTRDIFF_MAX / sizeof(T);
-        const std::size_t bytes = (std::min)(count, largest) * sizeof(T);
+        const std::size_t bytes = array_bytes<T>(count);
         std::destroy_n(data(), size_);
         size_ = 0;
         if (bytes > memory_.bytes()) memory_ = memory_block(bytes, memory_.pool());

@@ -204,7 +204,7 @@ class power_law_noise {
             o.noise.template add<N>(part, kept * o.amplitude, values);
         }
     }
-    insonify::detail::dynamic_array<octave> octaves_;
+    dynamic_array<octave> octaves_;
     double slope_ = 0;
 };
 

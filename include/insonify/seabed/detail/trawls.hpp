@@ -110,7 +110,7 @@ class trawl_furrows {
         return depth_ * strength * (off < 1 ? 0.3f - 1.3f * inner * inner : 0.3f * fade(clamp01(2 - off)));
     }
 
-    insonify::detail::dynamic_array<family> families_;
+    dynamic_array<family> families_;
     float depth_, half_width_ = 0;  // the latter in strips
     double width_;
     cell_hash hash_;

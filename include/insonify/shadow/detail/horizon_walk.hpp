@@ -15,6 +15,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
+using insonify::detail::dynamic_array;
+
 /// The largest u of square blocks of cells.
 class block_heights {
   public:
@@ -26,7 +28,7 @@ class block_heights {
         highest_ = insonify::detail::uninitialized_array<float>(
             static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), insonify::detail::memory_of(ex));
         bulk_ranges(ex, static_cast<std::size_t>(columns_), 4, [&](std::size_t from, std::size_t to) {
-            insonify::detail::dynamic_array<float> row(static_cast<std::size_t>(grid.rows));
+            dynamic_array<float> row(static_cast<std::size_t>(grid.rows));
             for (auto column = static_cast<int>(from); column < static_cast<int>(to); ++column)
                 insonify::detail::dispatch(kernel{grid, heights, column * side, row.data(),
                                                   highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_, rows_},

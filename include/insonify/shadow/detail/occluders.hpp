@@ -17,6 +17,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
+using insonify::detail::dynamic_array;
+
 /// A rectangle of a light's plane, cut into tiles.
 struct plane_tiles {
     glm::dvec2 lower{0}, size{0};  ///< of the whole
@@ -210,7 +212,7 @@ class plane_caster {
                                        level);
         });
         const std::size_t grain = (std::max)(std::size_t{4096}, (triangles_.size() / 64 + 16) / 16 * 16);
-        insonify::detail::dynamic_array<insonify::detail::tile_runs> chunks((triangles_.size() + grain - 1) / grain);
+        dynamic_array<insonify::detail::tile_runs> chunks((triangles_.size() + grain - 1) / grain);
         bulk_ranges(ex, triangles_.size(), grain, [&](std::size_t first, std::size_t last) {
             insonify::detail::dispatch(
                 tile_assembly_kernel{vertices_.data(), triangles_.data(), first, last, tiles, chunks[first / grain]},

@@ -54,8 +54,8 @@ class points_by_tile {
     using receivers_of = insonify::detail::uninitialized_array<receiver>;
     /// A run of batches.
     struct run {
-        std::size_t first = 0;                                  ///< of its points among all
-        insonify::detail::dynamic_array<std::uint32_t> starts;  ///< of tiles, from there; empty if no tile has a caster
+        std::size_t first = 0;                ///< of its points among all
+        dynamic_array<std::uint32_t> starts;  ///< of tiles, from there; empty if no tile has a caster
 
         std::span<const receiver> of(const receivers_of& all, std::size_t tile) const {
             if (starts.empty()) return {};
@@ -95,12 +95,12 @@ class points_by_tile {
             }
         }
         for (std::size_t tile = 0; tile < tiles; ++tile) out.starts[tile + 1] += out.starts[tile];
-        insonify::detail::dynamic_array<std::uint32_t> next = out.starts;
+        dynamic_array<std::uint32_t> next = out.starts;
         for (std::size_t i = 0; i < count; ++i) sorted_[out.first + next[keys[i]]++] = found[i];
     }
 
     const tiled_planes& planes_;
-    insonify::detail::dynamic_array<run> runs_;
+    dynamic_array<run> runs_;
     receivers_of sorted_;
 };
 

@@ -16,6 +16,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
+using insonify::detail::dynamic_array;
+
 /// Batch of a point and its index in the batch, packed into 32 bits.
 class batch_index {
   public:
@@ -130,12 +132,11 @@ class receiver_cells {
         return starts_[static_cast<std::size_t>(row * columns_ + column)];
     }
 
-    insonify::detail::dynamic_array<float> u, v, height;  ///< in the order of cells, with room for one more vector
-    insonify::detail::dynamic_array<batch_index> place;
-    insonify::detail::dynamic_array<std::uint32_t> mesh, triangle;
-    insonify::detail::dynamic_array<std::uint32_t>
-        lit_mesh;  ///< the mesh of a point whose facet faces the light, or invalid_id
-    insonify::detail::dynamic_array<std::int32_t> caster;  ///< that blocks it, or open, or closed
+    dynamic_array<float> u, v, height;  ///< in the order of cells, with room for one more vector
+    dynamic_array<batch_index> place;
+    dynamic_array<std::uint32_t> mesh, triangle;
+    dynamic_array<std::uint32_t> lit_mesh;  ///< the mesh of a point whose facet faces the light, or invalid_id
+    dynamic_array<std::int32_t> caster;     ///< that blocks it, or open, or closed
 
   private:
     static constexpr int widest = 128;          // rows
@@ -153,8 +154,8 @@ class receiver_cells {
     float lowest_ = 0, highest_ = 0, largest_ = 0;
     bool is_limited_ = false;
     mesh_range lit_, averted_;  ///< meshes of points that face the light, and of those that face away
-    insonify::detail::dynamic_array<std::uint32_t> starts_, next_, limit_;
-    insonify::detail::dynamic_array<std::uint16_t> keys_;
+    dynamic_array<std::uint32_t> starts_, next_, limit_;
+    dynamic_array<std::uint16_t> keys_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS

@@ -37,10 +37,9 @@ struct tiled_plane {
     light_plane plane;
     plane_tiles tiles;
     float error = 0;  ///< of coordinates on the plane
-    insonify::detail::dynamic_array<plane_caster> casters;
-    glm::dvec2 scale{};  ///< tiles per unit
-    insonify::detail::dynamic_array<std::uint32_t>
-        occupant{};  ///< by tile: the only caster that touches it, or one of the constants
+    dynamic_array<plane_caster> casters;
+    glm::dvec2 scale{};                       ///< tiles per unit
+    dynamic_array<std::uint32_t> occupant{};  ///< by tile: the only caster that touches it, or one of the constants
 
     /// The tile that contains a point of the plane, or the nearest one.
     std::size_t tile_of(const glm::dvec3& at) const {
@@ -108,8 +107,8 @@ class tiled_planes {
 
   private:
     std::optional<point_light> near_light_;
-    insonify::detail::dynamic_array<tiled_plane> planes_;
-    insonify::detail::dynamic_array<std::size_t> starts_{0};  ///< first tile of each plane, then their number
+    dynamic_array<tiled_plane> planes_;
+    dynamic_array<std::size_t> starts_{0};  ///< first tile of each plane, then their number
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
