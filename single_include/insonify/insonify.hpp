@@ -8254,6 +8254,22 @@ std::shared_ptr<const detail::model_interface> hold(M m) {
 
 }  // namespace INSONIFY_FLAGS
 
+namespace detail {
+
+template <class M>
+concept labelled = requires(const M& m) {
+    m.kind;
+};
+template <class M>
+concept sampled = requires(const M& m) {
+    sampler_of(m);
+};
+/// Was meant to be a model.
+template <class M>
+concept incomplete_model = !model<M> && (labelled<M> || sampled<M>);
+
+}  // namespace detail
+
 /// A seabed of any model, or none: `any bottom = ripples{.wavelength = 0.6f};`. It is a model itself.
 class any {
   public:
@@ -8264,6 +8280,13 @@ class any {
     template <model M>
         requires(!std::same_as<M, any> && !std::same_as<M, none>)
     INSONIFY_MEMBER any(M m) : held_(hold(std::move(m))) {}
+    /// Says what a model lacks, where a constraint would only say that there is no conversion.
+    template <detail::incomplete_model M>
+    any(const M&) {
+        static_assert(model<M>,
+                      "a seabed has row(const scanline&, std::span<float>) const and kind, a seabed::type or "
+                      "type_properties: see seabed/model.hpp");
+    }
 
     /// Whether there is no seabed.
     INSONIFY_MEMBER bool empty() const { return held_ == nullptr; }
@@ -18214,7 +18237,9 @@ class overhead_painter {
 template <class Shadow, class Labels, class Law, depth_precision Depth>
 frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
                     executor_ref ex) {
-    static_assert(shadow::policy<Shadow>);
+    static_assert(shadow::policy<Shadow>,
+                  "a shadow policy has build(casters, light, bounds, executor) const, which returns an object with "
+                  "test(points, results) const: see shadow/policy.hpp");
     return overhead_painter<Shadow, Labels, Law, Depth>(s, rig, options, ex).paint(ex);
 }
 template <class Law, depth_precision Depth>
@@ -19051,7 +19076,7 @@ inline void triangulate(std::span<const glm::vec3> corners, std::vector<glm::uve
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/obj.hpp -----------------------------------------------------------------
-// Wavefront OBJ import: triangles and normals, from text that may be malformed or malicious.
+// Wavefront OBJ import: triangles, normals and texture coordinates, from text that may be malformed or malicious.
 //
 // Source: Wavefront Technologies. Advanced Visualizer Manual, appendix B1: Object Files (.obj), 1993.
 
@@ -19060,14 +19085,38 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+/// A mesh with texture coordinates, for shaders to look up by `vertex::index`.
+struct textured_mesh {
+    mesh shape;
+    std::vector<glm::vec2> texture;  ///< one per position; (0, 0) is the lower left corner of the texture
+};
+
 namespace detail::inline INSONIFY_FLAGS {
 
 /// Parses the text in one pass. Blanks separate words; a backslash at the end of a line continues it.
 class obj_reader {
   public:
-    obj_reader(std::string_view text, std::string_view name) : text_(text), name_(name) {}
+    /// @param reads_texture  whether texture coordinates are read, or skipped
+    obj_reader(std::string_view text, std::string_view name, bool reads_texture)
+        : text_(text), name_(name), reads_texture_(reads_texture) {}
 
     mesh read() {
+        parse();
+        return assemble(false).shape;
+    }
+    textured_mesh read_textured() {
+        parse();
+        textured_mesh out = assemble(true);
+        // A seam of the texture is no crease: vertices that it divides keep one normal.
+        const mesh undivided = assemble(false).shape;
+        for (std::size_t t = 0; t < undivided.triangles.size(); ++t)
+            for (int i = 0; i < 3; ++i)
+                out.shape.normals[out.shape.triangles[t][i]] = undivided.normals[undivided.triangles[t][i]];
+        return out;
+    }
+
+  private:
+    void parse() {
         // A corner takes at least two characters and makes at most three entries: 32 bits count them.
         if (text_.size() > (std::size_t{1} << 31)) fail("the text is longer than 2 GiB");
         if (text_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;  // byte order mark
@@ -19077,18 +19126,18 @@ class obj_reader {
                 positions_.push_back(vector());
             else if (keyword == "vn")
                 normals_.push_back(vector());
+            else if (keyword == "vt" && reads_texture_)
+                texture_.push_back(texture_coordinate());
             else if (keyword == "f")
                 face();
             finish_line();
         }
         if (corners_.empty()) refuse_without_face();
-        return assemble();
     }
 
-  private:
-    /// A corner of a face, as indices into the file's positions and normals.
+    /// A corner of a face, as indices into the file's positions, normals and texture coordinates.
     struct corner {
-        std::uint32_t position, normal;
+        std::uint32_t position, normal, texture;
     };
     static constexpr std::uint32_t none = (std::numeric_limits<std::uint32_t>::max)();
 
@@ -19153,9 +19202,12 @@ class obj_reader {
 
     // Elements.
 
-    float number() {
+    float number(const char* if_missing = "a vertex or normal has fewer than 3 numbers") {
         const std::string_view digits = word();
-        if (digits.empty()) fail("a vertex or normal has fewer than 3 numbers");
+        if (digits.empty()) fail(if_missing);
+        return parsed(digits);
+    }
+    float parsed(std::string_view digits) const {
         double value = 0;
         const number_text found = parse_number(digits, value);
         if (found == number_text::malformed) fail(quoted(digits) + " is not a number");
@@ -19167,6 +19219,12 @@ class obj_reader {
     glm::vec3 vector() {
         const float x = number(), y = number();
         return {x, y, number()};
+    }
+    /// One or two numbers, of which a third would be a depth.
+    glm::vec2 texture_coordinate() {
+        const float u = number("a texture coordinate has no number");
+        const std::string_view second = word();
+        return {u, second.empty() ? 0.0f : parsed(second)};
     }
 
     /// Converts an index of the file, 1 and up or -1 and down, to one from 0.
@@ -19182,11 +19240,13 @@ class obj_reader {
         return static_cast<std::uint32_t>(value > 0 ? value - 1 : count + value);
     }
 
-    /// `v`, `v/vt`, `v//vn` or `v/vt/vn`; texture coordinates are skipped.
+    /// `v`, `v/vt`, `v//vn` or `v/vt/vn`.
     corner parse_corner(std::string_view text) {
         const std::size_t slash = text.find('/');
         const std::size_t second = slash == text.npos ? text.npos : text.find('/', slash + 1);
-        corner out{index(text.substr(0, slash), positions_.size(), "position"), none};
+        corner out{index(text.substr(0, slash), positions_.size(), "position"), none, none};
+        if (reads_texture_ && slash != text.npos && slash + 1 < (std::min)(second, text.size()))
+            out.texture = index(text.substr(slash + 1, second - slash - 1), texture_.size(), "texture");
         if (second != text.npos && second + 1 < text.size())
             out.normal = index(text.substr(second + 1), normals_.size(), "normal");
         return out;
@@ -19206,9 +19266,10 @@ class obj_reader {
             for (int i = 0; i < 3; ++i) corners_.push_back(polygon_[cut[i]]);
     }
 
-    /// Each distinct pair of position and normal becomes a vertex, in the order of the file's positions.
-    mesh assemble() const {
-        // Sort corners into one bucket per position, then each bucket by normal.
+    /// Each distinct corner becomes a vertex, in the order of the file's positions.
+    /// @param has_texture  whether corners that differ in texture coordinates alone are distinct
+    textured_mesh assemble(bool has_texture) const {
+        // Sort corners into one bucket per position, then each bucket by normal and texture.
         std::vector<std::uint32_t> bucket(positions_.size() + 1, 0);
         for (const corner& c : corners_) ++bucket[c.position];
         std::uint32_t end = 0;
@@ -19217,20 +19278,25 @@ class obj_reader {
         for (std::size_t i = corners_.size(); i-- > 0;)
             order[--bucket[corners_[i].position]] = static_cast<std::uint32_t>(i);
 
-        mesh out;
+        textured_mesh all;
+        mesh& out = all.shape;
         bool complete = true;
         std::vector<std::uint32_t> vertex(corners_.size());
         for (std::size_t p = 0; p < positions_.size(); ++p) {
             const auto first = order.begin() + bucket[p], last = order.begin() + bucket[p + 1];
-            std::sort(first, last, [&](auto a, auto b) { return corners_[a].normal < corners_[b].normal; });
+            const auto key = [&](std::uint32_t i) {
+                return std::pair(corners_[i].normal, has_texture ? corners_[i].texture : none);
+            };
+            std::sort(first, last, [&](auto a, auto b) { return key(a) < key(b); });
             for (auto at = first; at != last; ++at) {
-                const std::uint32_t normal = corners_[*at].normal;
-                if (at == first || normal != corners_[*(at - 1)].normal) {
+                const auto [normal, texture] = key(*at);
+                if (at == first || key(*at) != key(*(at - 1))) {
                     const glm::dvec3 n = normal == none ? glm::dvec3(0) : glm::dvec3(normals_[normal]);
                     const double length = numeric::square_root(numeric::dot(n, n));
                     complete = complete && length > 0;
                     out.positions.push_back(positions_[p]);
                     out.normals.push_back(length > 0 ? glm::vec3(n / length) : glm::vec3(0));
+                    if (has_texture) all.texture.push_back(texture == none ? glm::vec2(0) : texture_[texture]);
                 }
                 vertex[*at] = static_cast<std::uint32_t>(out.positions.size() - 1);
             }
@@ -19245,14 +19311,16 @@ class obj_reader {
             for (std::size_t i = 0; i < smooth.size(); ++i)
                 if (out.normals[i] == glm::vec3(0)) out.normals[i] = smooth[i];
         }
-        return out;
+        return all;
     }
 
     std::string_view text_;
     std::string_view name_;
+    bool reads_texture_;
     std::size_t at_ = 0;
     std::size_t line_ = 1;
     std::vector<glm::vec3> positions_, normals_;
+    std::vector<glm::vec2> texture_;
     std::vector<corner> corners_;  // three per triangle
     std::vector<corner> polygon_;  // the face being read
     std::vector<glm::vec3> outline_;
@@ -19266,22 +19334,35 @@ inline namespace INSONIFY_FLAGS {
 /// The polygons of a Wavefront OBJ text as one mesh, in time linear in its length.
 ///
 /// Reads `v` (numbers after the third, weights or colours, are ignored), `vn` and `f`; all other lines are skipped.
-/// Polygons become triangles by `triangulate`. A position is kept once for each normal it is used with, and not at all
-/// if no face uses it. Corners without a normal get `smooth_normals`. The frame is the file's own, commonly y up: turn
-/// such a model upright by `pose{.roll = 90_deg}`.
+/// Polygons become triangles by `triangulate`, in the order of the faces. A position is kept once for each normal it is
+/// used with, and not at all if no face uses it. Corners without a normal get `smooth_normals`. The frame is the file's
+/// own, commonly y up: turn such a model upright by `pose{.roll = 90_deg}`.
 ///
 /// @param name  what error messages call the text
 /// @throws io_error with the name and line number for: a coordinate that is missing, no number, or out of range; an
 ///         index that is 0, no integer, or refers to a line not yet given; a face with fewer than 3 corners; a text
 ///         without a face, such as the path of a file, which `load_obj` takes; more than 2 GiB of text
 inline mesh read_obj(std::string_view text, std::string_view name = "OBJ text") {
-    return detail::obj_reader(text, name).read();
+    return detail::obj_reader(text, name, false).read();
+}
+
+/// `read_obj` with texture coordinates (`vt`). A position is kept once for each pair of a normal and a texture
+/// coordinate that it is used with, so that it has more vertices along the seams of the texture. Corners without a
+/// texture coordinate get (0, 0).
+/// @throws io_error as `read_obj` does, and for the same faults of texture coordinates and their indices
+inline textured_mesh read_textured_obj(std::string_view text, std::string_view name = "OBJ text") {
+    return detail::obj_reader(text, name, true).read_textured();
 }
 
 /// `read_obj` of a file.
 /// @throws io_error if the file can't be read, with the system's reason, and as `read_obj` does
 inline mesh load_obj(const std::string& path) {
     return read_obj(detail::file_bytes(path), path);
+}
+/// `read_textured_obj` of a file.
+/// @throws io_error if the file can't be read, with the system's reason, and as `read_textured_obj` does
+inline textured_mesh load_textured_obj(const std::string& path) {
+    return read_textured_obj(detail::file_bytes(path), path);
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -19593,23 +19674,23 @@ inline namespace INSONIFY_ABI {
 /// An aeroplane on its belly, nose towards +x, its lowest point at z = 0: fuselage with canopy, tapered wings with
 /// dihedral, tailplane, fin, engines with propellers; whole, without wings, with its tail broken off, or on its back.
 ///
-/// The default is a twin-engined bomber of the 1940s of the size of a Junkers Ju 88 A-4, 14.4 m long with a span of
-/// 20 m; a single-engined fighter such as the Spitfire Mk V is 9.1 m and 11.2 m, a Douglas C-47 19.4 m and 29 m (Jane's
-/// All the World's Aircraft, 1945). Taper and tail sizes: D. P. Raymer. Aircraft Design: A Conceptual Approach,
-/// chapters 4 and 6.
+/// Sizes that are not given follow from the others in the default's proportions. It is a twin-engined bomber of the
+/// 1940s of the size of a Junkers Ju 88 A-4, 14.4 m long with a span of 20 m; a single-engined fighter such as the
+/// Spitfire Mk V is 9.1 m and 11.2 m, a Douglas C-47 19.4 m and 29 m (Jane's All the World's Aircraft, 1945). Taper and
+/// tail sizes: D. P. Raymer. Aircraft Design: A Conceptual Approach, chapters 4 and 6.
 struct aeroplane {
-    float length = 14.4f;            ///< of the fuselage with a nose engine's spinner, metres
-    float span = 20;                 ///< metres, length / 4 to 4 length
-    float fuselage_diameter = 1.7f;  ///< mean of height and width, metres, length / 40 to length / 4
-    float root_chord = 3.7f;         ///< metres, length / 20 to length / 2
-    float tip_chord = 1.5f;          ///< metres, length / 100 to root_chord
-    float sweep = 0.08f;             ///< of the leading edge, radians, -0.5 to 0.8
-    float dihedral = 0.08f;          ///< radians, -0.2 to 0.3
+    float length = 14.4f;                             ///< of the fuselage with a nose engine's spinner, metres
+    float span = length * 20 / 14.4f;                 ///< metres, length / 4 to 4 length
+    float fuselage_diameter = length * 1.7f / 14.4f;  ///< mean of height and width, metres, length / 40 to length / 4
+    float root_chord = length * 3.7f / 14.4f;         ///< metres, length / 20 to length / 2
+    float tip_chord = root_chord * 1.5f / 3.7f;       ///< metres, length / 100 to root_chord
+    float sweep = 0.08f;                              ///< of the leading edge, radians, -0.5 to 0.8
+    float dihedral = 0.08f;                           ///< radians, -0.2 to 0.3
     float wing_position = 0.2f;  ///< of the root's leading edge ahead of the middle, share of the length, -0.1 to 0.4
-    float tail_span = 7.4f;      ///< of the tailplane, metres, at most the span
-    float fin_height = 2.1f;     ///< above the fuselage, metres, at most length / 3
-    int engines = 2;             ///< 0 to 4; odd ones sit in the nose, the others in the wings
-    float propeller_diameter = 3.4f;  ///< metres, at most the length; 0: without propellers
+    float tail_span = span * 0.37f;                    ///< of the tailplane, metres, at most the span
+    float fin_height = length * 2.1f / 14.4f;          ///< above the fuselage, metres, at most length / 3
+    int engines = 2;                                   ///< 0 to 4; odd ones sit in the nose, the others in the wings
+    float propeller_diameter = length * 3.4f / 14.4f;  ///< metres, at most the length; 0: without propellers
 
     float port_wing = 1;       ///< share of the half span that is left, 0 to 1
     float starboard_wing = 1;  ///< the same of the other
@@ -20331,28 +20412,29 @@ enum class stern_type : std::uint8_t { cruiser, transom };
 /// A ship standing upright on z = 0 with its keel, bow towards +x, midships at the origin: an open shell of plating on
 /// frames, with decks, hatches, deckhouse, masts and funnel; whole, broken in two, or collapsed.
 ///
-/// The default is a coaster. Proportions: H. Schneekluth, V. Bertram. Ship Design for Efficiency and Economy, 1998
-/// (length / beam 4 to 7, beam / depth 1.6 to 2.5). Sheer and bulwark: International Convention on Load Lines, 1966
-/// (regulation 38: standard sheer of 50 (L / 3 + 10) mm at the bow and half of that at the stern; regulation 25:
-/// bulwarks of 1 m). A trawler measures some 25 x 6.8 x 3.4 m, a cargo steamer of 1910 some 100 x 14.5 x 7.5 m.
+/// The default is a coaster. Sizes that are not given follow from the others in its proportions. Proportions: H.
+/// Schneekluth, V. Bertram. Ship Design for Efficiency and Economy, 1998 (length / beam 4 to 7, beam / depth 1.6
+/// to 2.5). Sheer and bulwark: International Convention on Load Lines, 1966 (regulation 38: standard sheer of 50 (L / 3
+/// + 10) mm at the bow and half of that at the stern; regulation 25: bulwarks of 1 m). A trawler measures some 25 x 6.8
+/// x 3.4 m, a cargo steamer of 1910 some 100 x 14.5 x 7.5 m.
 struct hull {
-    float length = 45;   ///< over all, metres
-    float beam = 8.2f;   ///< metres, length / 20 to length / 2
-    float depth = 4;     ///< from keel to deck amidships, metres, beam / 5 to 2 beam
-    float bulwark = 1;   ///< height above the deck, metres, at most half the depth
-    float sheer = 1.5f;  ///< times the standard sheer, 0 to 4
+    float length = 45;                ///< over all, metres
+    float beam = length * 8.2f / 45;  ///< metres, length / 20 to length / 2
+    float depth = beam * 4 / 8.2f;    ///< from keel to deck amidships, metres, beam / 5 to 2 beam
+    float bulwark = depth / 4;        ///< height above the deck, metres, at most half the depth
+    float sheer = 1.5f;               ///< times the standard sheer, 0 to 4
     stern_type stern = stern_type::cruiser;
     /// Thickness in which plating is drawn, metres; from 1/2000 of the length to 1/16 of the beam. Real plates
     /// measure 10 mm, which neither a sonar nor a grid of pixels resolves.
-    float plating = 0.12f;
+    float plating = length / 375;
 
     float house_length = 0.2f;     ///< of the deckhouse, share of the length; 0: none, at most 0.5
     float house_position = -0.3f;  ///< of its middle from midships, share of the length: -0.35 (aft) to 0.3
     int house_tiers = 2;           ///< 1 to 4, each 2.4 m high, at most half the depth and 0.08 length
     bool has_funnel = true;
-    int hatches = 2;        ///< open, 0 to 8
-    int masts = 2;          ///< 0 to 4, with two derricks each
-    float mast_height = 9;  ///< above the deck, metres, at most the length
+    int hatches = 2;                 ///< open, 0 to 8
+    int masts = 2;                   ///< 0 to 4, with two derricks each
+    float mast_height = length / 5;  ///< above the deck, metres, at most the length
 
     float break_gap = 0;          ///< metres between the two halves of a broken ship; 0: in one piece
     float break_position = 0.1f;  ///< from midships, share of the length, -0.4 to 0.4
@@ -24010,7 +24092,8 @@ inline namespace INSONIFY_FLAGS {
 ///
 /// @param s        the seabed and its targets
 /// @param track    pings in order; row i of the result is ping i
-/// @param rig      ranges, side and ping spacing; its own track is ignored
+/// @param rig      ranges, side and ping spacing; its own track is ignored. Its altitude is nominal: the default `cell`
+///                 and the noise of ground ranges go by it
 /// @param options  labels, backscatter law and sonar equation by type; sampling of the seabed
 /// @param ex       runs it; the result is the same bytes for any executor
 /// @throws invalid_input for a rig, a ping, a seabed, a material, a pose or an option out of range

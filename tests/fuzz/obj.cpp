@@ -39,5 +39,12 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         check(in::read_obj(text), size);
     } catch (const in::io_error&) {  // anything else that is thrown ends the program
     }
+    try {
+        const in::textured_mesh m = in::read_textured_obj(text);
+        check(m.shape, size);
+        demand(m.texture.size() == m.shape.positions.size(), "there is one texture coordinate per position");
+        for (const glm::vec2& t : m.texture) demand(is_finite({t, 0}), "texture coordinates are finite");
+    } catch (const in::io_error&) {
+    }
     return 0;
 }

@@ -5,6 +5,7 @@ Pages are followed in the order of docs/guide/README.md, in one folder, from top
 
 - A block whose first line is a comment with a file's name, or whose fence has one, is written to that file.
 - A block of `sh` is run by bash, with the compiler of $CXX. `sh skip` is not run: it installs, or needs a cluster.
+- A block that quotes a file of the project, as in ```cpp examples/own_noise.cpp, is checked by tests/rules/excerpts.py.
 - A block of `text` below one that was run is its output: each of its lines, in this order; `...` stands for anything.
 
 Then the commands of README.md and docs/compile_cost.md are run, with the project's single_include/ and examples/.
@@ -73,6 +74,8 @@ class Guide:
         output = None
         for fence in FENCE.finditer(text):
             language, flag, code = fence.groups()
+            if (self.project / flag).is_file():
+                continue
             where = f"{page}:{text.count(chr(10), 0, fence.start()) + 1}"
             name = FILE_NAME.match(code.split("\n", 1)[0])
             started = time.monotonic()

@@ -78,6 +78,7 @@ PICTURES = {
     "swath.png": Swath(20, 20, levels=8, step=5, forward="down"),
     "beside_real.png": Swath(30, levels=32, forward="down", above="above: rendered; below: recorded, CIDCO OpenSidescan (MIT)"),
     "shader.png": Plain("hull of 24 m, a line for every metre from the sonar"),
+    "ball.png": Plain("a ball of 2 m, seen from 4.3 m"),
 }
 SHRUNK = {"cylinder.png": (512, 512), "line.png": (880, 280), "beside_real.png": (1024, 467)}
 IN_DOCS = {"cylinder.png", "swath.png", "beside_real.png"}  # the others belong to the guide

@@ -1,4 +1,4 @@
-// Wavefront OBJ import: triangles and normals, from text that may be malformed or malicious.
+// Wavefront OBJ import: triangles, normals and texture coordinates, from text that may be malformed or malicious.
 //
 // Source: Wavefront Technologies. Advanced Visualizer Manual, appendix B1: Object Files (.obj), 1993.
 #pragma once
@@ -16,8 +16,10 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -25,14 +27,38 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+/// A mesh with texture coordinates, for shaders to look up by `vertex::index`.
+struct textured_mesh {
+    mesh shape;
+    std::vector<glm::vec2> texture;  ///< one per position; (0, 0) is the lower left corner of the texture
+};
+
 namespace detail::inline INSONIFY_FLAGS {
 
 /// Parses the text in one pass. Blanks separate words; a backslash at the end of a line continues it.
 class obj_reader {
   public:
-    obj_reader(std::string_view text, std::string_view name) : text_(text), name_(name) {}
+    /// @param reads_texture  whether texture coordinates are read, or skipped
+    obj_reader(std::string_view text, std::string_view name, bool reads_texture)
+        : text_(text), name_(name), reads_texture_(reads_texture) {}
 
     mesh read() {
+        parse();
+        return assemble(false).shape;
+    }
+    textured_mesh read_textured() {
+        parse();
+        textured_mesh out = assemble(true);
+        // A seam of the texture is no crease: vertices that it divides keep one normal.
+        const mesh undivided = assemble(false).shape;
+        for (std::size_t t = 0; t < undivided.triangles.size(); ++t)
+            for (int i = 0; i < 3; ++i)
+                out.shape.normals[out.shape.triangles[t][i]] = undivided.normals[undivided.triangles[t][i]];
+        return out;
+    }
+
+  private:
+    void parse() {
         // A corner takes at least two characters and makes at most three entries: 32 bits count them.
         if (text_.size() > (std::size_t{1} << 31)) fail("the text is longer than 2 GiB");
         if (text_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;  // byte order mark
@@ -42,18 +68,18 @@ class obj_reader {
                 positions_.push_back(vector());
             else if (keyword == "vn")
                 normals_.push_back(vector());
+            else if (keyword == "vt" && reads_texture_)
+                texture_.push_back(texture_coordinate());
             else if (keyword == "f")
                 face();
             finish_line();
         }
         if (corners_.empty()) refuse_without_face();
-        return assemble();
     }
 
-  private:
-    /// A corner of a face, as indices into the file's positions and normals.
+    /// A corner of a face, as indices into the file's positions, normals and texture coordinates.
     struct corner {
-        std::uint32_t position, normal;
+        std::uint32_t position, normal, texture;
     };
     static constexpr std::uint32_t none = (std::numeric_limits<std::uint32_t>::max)();
 
@@ -118,9 +144,12 @@ class obj_reader {
 
     // Elements.
 
-    float number() {
+    float number(const char* if_missing = "a vertex or normal has fewer than 3 numbers") {
         const std::string_view digits = word();
-        if (digits.empty()) fail("a vertex or normal has fewer than 3 numbers");
+        if (digits.empty()) fail(if_missing);
+        return parsed(digits);
+    }
+    float parsed(std::string_view digits) const {
         double value = 0;
         const number_text found = parse_number(digits, value);
         if (found == number_text::malformed) fail(quoted(digits) + " is not a number");
@@ -132,6 +161,12 @@ class obj_reader {
     glm::vec3 vector() {
         const float x = number(), y = number();
         return {x, y, number()};
+    }
+    /// One or two numbers, of which a third would be a depth.
+    glm::vec2 texture_coordinate() {
+        const float u = number("a texture coordinate has no number");
+        const std::string_view second = word();
+        return {u, second.empty() ? 0.0f : parsed(second)};
     }
 
     /// Converts an index of the file, 1 and up or -1 and down, to one from 0.
@@ -147,11 +182,13 @@ class obj_reader {
         return static_cast<std::uint32_t>(value > 0 ? value - 1 : count + value);
     }
 
-    /// `v`, `v/vt`, `v//vn` or `v/vt/vn`; texture coordinates are skipped.
+    /// `v`, `v/vt`, `v//vn` or `v/vt/vn`.
     corner parse_corner(std::string_view text) {
         const std::size_t slash = text.find('/');
         const std::size_t second = slash == text.npos ? text.npos : text.find('/', slash + 1);
-        corner out{index(text.substr(0, slash), positions_.size(), "position"), none};
+        corner out{index(text.substr(0, slash), positions_.size(), "position"), none, none};
+        if (reads_texture_ && slash != text.npos && slash + 1 < (std::min)(second, text.size()))
+            out.texture = index(text.substr(slash + 1, second - slash - 1), texture_.size(), "texture");
         if (second != text.npos && second + 1 < text.size())
             out.normal = index(text.substr(second + 1), normals_.size(), "normal");
         return out;
@@ -171,9 +208,10 @@ class obj_reader {
             for (int i = 0; i < 3; ++i) corners_.push_back(polygon_[cut[i]]);
     }
 
-    /// Each distinct pair of position and normal becomes a vertex, in the order of the file's positions.
-    mesh assemble() const {
-        // Sort corners into one bucket per position, then each bucket by normal.
+    /// Each distinct corner becomes a vertex, in the order of the file's positions.
+    /// @param has_texture  whether corners that differ in texture coordinates alone are distinct
+    textured_mesh assemble(bool has_texture) const {
+        // Sort corners into one bucket per position, then each bucket by normal and texture.
         std::vector<std::uint32_t> bucket(positions_.size() + 1, 0);
         for (const corner& c : corners_) ++bucket[c.position];
         std::uint32_t end = 0;
@@ -182,20 +220,25 @@ class obj_reader {
         for (std::size_t i = corners_.size(); i-- > 0;)
             order[--bucket[corners_[i].position]] = static_cast<std::uint32_t>(i);
 
-        mesh out;
+        textured_mesh all;
+        mesh& out = all.shape;
         bool complete = true;
         std::vector<std::uint32_t> vertex(corners_.size());
         for (std::size_t p = 0; p < positions_.size(); ++p) {
             const auto first = order.begin() + bucket[p], last = order.begin() + bucket[p + 1];
-            std::sort(first, last, [&](auto a, auto b) { return corners_[a].normal < corners_[b].normal; });
+            const auto key = [&](std::uint32_t i) {
+                return std::pair(corners_[i].normal, has_texture ? corners_[i].texture : none);
+            };
+            std::sort(first, last, [&](auto a, auto b) { return key(a) < key(b); });
             for (auto at = first; at != last; ++at) {
-                const std::uint32_t normal = corners_[*at].normal;
-                if (at == first || normal != corners_[*(at - 1)].normal) {
+                const auto [normal, texture] = key(*at);
+                if (at == first || key(*at) != key(*(at - 1))) {
                     const glm::dvec3 n = normal == none ? glm::dvec3(0) : glm::dvec3(normals_[normal]);
                     const double length = numeric::square_root(numeric::dot(n, n));
                     complete = complete && length > 0;
                     out.positions.push_back(positions_[p]);
                     out.normals.push_back(length > 0 ? glm::vec3(n / length) : glm::vec3(0));
+                    if (has_texture) all.texture.push_back(texture == none ? glm::vec2(0) : texture_[texture]);
                 }
                 vertex[*at] = static_cast<std::uint32_t>(out.positions.size() - 1);
             }
@@ -210,14 +253,16 @@ class obj_reader {
             for (std::size_t i = 0; i < smooth.size(); ++i)
                 if (out.normals[i] == glm::vec3(0)) out.normals[i] = smooth[i];
         }
-        return out;
+        return all;
     }
 
     std::string_view text_;
     std::string_view name_;
+    bool reads_texture_;
     std::size_t at_ = 0;
     std::size_t line_ = 1;
     std::vector<glm::vec3> positions_, normals_;
+    std::vector<glm::vec2> texture_;
     std::vector<corner> corners_;  // three per triangle
     std::vector<corner> polygon_;  // the face being read
     std::vector<glm::vec3> outline_;
@@ -231,22 +276,35 @@ inline namespace INSONIFY_FLAGS {
 /// The polygons of a Wavefront OBJ text as one mesh, in time linear in its length.
 ///
 /// Reads `v` (numbers after the third, weights or colours, are ignored), `vn` and `f`; all other lines are skipped.
-/// Polygons become triangles by `triangulate`. A position is kept once for each normal it is used with, and not at all
-/// if no face uses it. Corners without a normal get `smooth_normals`. The frame is the file's own, commonly y up: turn
-/// such a model upright by `pose{.roll = 90_deg}`.
+/// Polygons become triangles by `triangulate`, in the order of the faces. A position is kept once for each normal it is
+/// used with, and not at all if no face uses it. Corners without a normal get `smooth_normals`. The frame is the file's
+/// own, commonly y up: turn such a model upright by `pose{.roll = 90_deg}`.
 ///
 /// @param name  what error messages call the text
 /// @throws io_error with the name and line number for: a coordinate that is missing, no number, or out of range; an
 ///         index that is 0, no integer, or refers to a line not yet given; a face with fewer than 3 corners; a text
 ///         without a face, such as the path of a file, which `load_obj` takes; more than 2 GiB of text
 inline mesh read_obj(std::string_view text, std::string_view name = "OBJ text") {
-    return detail::obj_reader(text, name).read();
+    return detail::obj_reader(text, name, false).read();
+}
+
+/// `read_obj` with texture coordinates (`vt`). A position is kept once for each pair of a normal and a texture
+/// coordinate that it is used with, so that it has more vertices along the seams of the texture. Corners without a
+/// texture coordinate get (0, 0).
+/// @throws io_error as `read_obj` does, and for the same faults of texture coordinates and their indices
+inline textured_mesh read_textured_obj(std::string_view text, std::string_view name = "OBJ text") {
+    return detail::obj_reader(text, name, true).read_textured();
 }
 
 /// `read_obj` of a file.
 /// @throws io_error if the file can't be read, with the system's reason, and as `read_obj` does
 inline mesh load_obj(const std::string& path) {
     return read_obj(detail::file_bytes(path), path);
+}
+/// `read_textured_obj` of a file.
+/// @throws io_error if the file can't be read, with the system's reason, and as `read_textured_obj` does
+inline textured_mesh load_textured_obj(const std::string& path) {
+    return read_textured_obj(detail::file_bytes(path), path);
 }
 
 }  // namespace INSONIFY_FLAGS

@@ -103,6 +103,22 @@ std::shared_ptr<const detail::model_interface> hold(M m) {
 
 }  // namespace INSONIFY_FLAGS
 
+namespace detail {
+
+template <class M>
+concept labelled = requires(const M& m) {
+    m.kind;
+};
+template <class M>
+concept sampled = requires(const M& m) {
+    sampler_of(m);
+};
+/// Was meant to be a model.
+template <class M>
+concept incomplete_model = !model<M> && (labelled<M> || sampled<M>);
+
+}  // namespace detail
+
 /// A seabed of any model, or none: `any bottom = ripples{.wavelength = 0.6f};`. It is a model itself.
 class any {
   public:
@@ -113,6 +129,13 @@ class any {
     template <model M>
         requires(!std::same_as<M, any> && !std::same_as<M, none>)
     INSONIFY_MEMBER any(M m) : held_(hold(std::move(m))) {}
+    /// Says what a model lacks, where a constraint would only say that there is no conversion.
+    template <detail::incomplete_model M>
+    any(const M&) {
+        static_assert(model<M>,
+                      "a seabed has row(const scanline&, std::span<float>) const and kind, a seabed::type or "
+                      "type_properties: see seabed/model.hpp");
+    }
 
     /// Whether there is no seabed.
     INSONIFY_MEMBER bool empty() const { return held_ == nullptr; }

@@ -156,6 +156,39 @@ TEST_CASE("Each pair of position and normal is one vertex; missing and zero norm
     CHECK(in::read_obj(square + normals + "f 1//1 2 3\nf 1//2 2 3\nf 1//1 3 4\nf 1//2 3 4").positions.size() == 5);
 }
 
+TEST_CASE("Texture coordinates divide a position along a seam, where its normal stays one") {
+    const std::string coordinates = "vt 0.1 0\nvt 1 0\nvt 1 1 0.5\nvt 0.5\n", bent = "v 0 0 1\n";
+    const std::string faces = "f 1/1 2/2 3/3\nf 1/4 3/3 4\nf 1/-1/ 4 5\n";
+    const in::textured_mesh m = in::read_textured_obj(square + bent + coordinates + faces);
+    const auto texture = [&](std::size_t t, int corner) { return m.texture[m.shape.triangles[t][corner]]; };
+    CHECK(m.texture.size() == 6);  // 1/1 1/4, 2/2, 3/3, 4, 5
+    CHECK(m.shape.positions.size() == 6);
+    CHECK(texture(0, 0) == glm::vec2(0.1f, 0));
+    CHECK(texture(0, 2) == glm::vec2(1, 1));
+    CHECK(texture(1, 0) == glm::vec2(0.5f, 0));
+    CHECK(texture(1, 2) == glm::vec2(0, 0));
+    CHECK(m.shape.triangles[1].x == m.shape.triangles[2].x);
+
+    const in::mesh plain = in::read_obj(square + bent + faces);
+    CHECK(plain.positions.size() == 5);
+    for (std::size_t t = 0; t < 3; ++t)
+        for (int i = 0; i < 3; ++i) {
+            CHECK(m.shape.positions[m.shape.triangles[t][i]] == plain.positions[plain.triangles[t][i]]);
+            CHECK(m.shape.normals[m.shape.triangles[t][i]] == plain.normals[plain.triangles[t][i]]);
+        }
+    // Normals and texture coordinates divide independently.
+    CHECK(in::read_textured_obj(square + coordinates + "vn 1 0 0\nvn 0 1 0\nf 1/1/1 2 3\nf 1/2/1 2 3\nf 1/1/2 2 3")
+              .texture.size() == 5);
+}
+
+TEST_CASE("Malformed texture coordinates are refused where they are read") {
+    const std::string text = GENERATE("vt\nf 1 2 3", "vt x\nf 1 2 3", "vt 0 inf\nf 1 2 3", "f 1/1 2 3",
+                                      "vt 0 0\nf 1/2 2 3", "vt 0 0\nf 1/0 2 3", "vt 0 0\nf 1/x 2 3");
+    CAPTURE(text);
+    CHECK_THROWS_WITH(in::read_textured_obj(square + text, "b.obj"), ContainsSubstring("b.obj:"));
+    CHECK_NOTHROW(in::read_obj(square + text));
+}
+
 TEST_CASE("Malformed input is refused with the name of the text and the line") {
     CHECK(refusal("v 0 0 0\nv 1 1\n") == "a.obj:2: a vertex or normal has fewer than 3 numbers");
     CHECK(refusal("vn 0 0 x") == "a.obj:1: 'x' is not a number");
@@ -325,4 +358,13 @@ TEST_CASE("Spot, a public mesh, is a closed surface of one piece") {
     CHECK(t.triangles == 5856);
     CHECK(t.closed());
     CHECK(t.euler_characteristic() == 2);
+
+    const in::textured_mesh textured = in::load_textured_obj(path);
+    CHECK(textured.texture.size() == textured.shape.positions.size());
+    CHECK(textured.texture.size() > spot.positions.size());
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < spot.triangles.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            differing += textured.shape.normals[textured.shape.triangles[i][k]] != spot.normals[spot.triangles[i][k]];
+    CHECK(differing == 0);
 }

@@ -373,6 +373,15 @@ TEST_CASE("A hull is solid, with its stated length and beam") {
     CHECK(volume_of(parts.parts[0].shape) < 0.3 * 45 * 8.2 * 4);
 }
 
+TEST_CASE("Sizes of a hull and of an aeroplane that are not given keep its proportions") {
+    for (const float size : {0.0625f, 0.5f, 2.0f}) {
+        CHECK(is_same(in::hull{.length = 45 * size}, ship_of(size)));
+        CHECK(is_same(in::aeroplane{.length = 14.4f * size}, aeroplane_of(size)));
+    }
+    CHECK(is_same(in::hull{.beam = 16.4f}, in::hull{.beam = 16.4f, .depth = 8}));
+    check_solid(to_mesh(in::hull{.length = 5, .beam = 1.8f, .depth = 0.9f}));
+}
+
 TEST_CASE("A hull stays solid while it collapses and breaks, and sinks lower") {
     double height = 1e9;
     for (const float collapse : {0.0f, 0.01f, 0.3f, 0.5f, 0.8f, 1.0f}) {

@@ -13,23 +13,23 @@ inline namespace INSONIFY_ABI {
 /// An aeroplane on its belly, nose towards +x, its lowest point at z = 0: fuselage with canopy, tapered wings with
 /// dihedral, tailplane, fin, engines with propellers; whole, without wings, with its tail broken off, or on its back.
 ///
-/// The default is a twin-engined bomber of the 1940s of the size of a Junkers Ju 88 A-4, 14.4 m long with a span of
-/// 20 m; a single-engined fighter such as the Spitfire Mk V is 9.1 m and 11.2 m, a Douglas C-47 19.4 m and 29 m (Jane's
-/// All the World's Aircraft, 1945). Taper and tail sizes: D. P. Raymer. Aircraft Design: A Conceptual Approach,
-/// chapters 4 and 6.
+/// Sizes that are not given follow from the others in the default's proportions. It is a twin-engined bomber of the
+/// 1940s of the size of a Junkers Ju 88 A-4, 14.4 m long with a span of 20 m; a single-engined fighter such as the
+/// Spitfire Mk V is 9.1 m and 11.2 m, a Douglas C-47 19.4 m and 29 m (Jane's All the World's Aircraft, 1945). Taper and
+/// tail sizes: D. P. Raymer. Aircraft Design: A Conceptual Approach, chapters 4 and 6.
 struct aeroplane {
-    float length = 14.4f;            ///< of the fuselage with a nose engine's spinner, metres
-    float span = 20;                 ///< metres, length / 4 to 4 length
-    float fuselage_diameter = 1.7f;  ///< mean of height and width, metres, length / 40 to length / 4
-    float root_chord = 3.7f;         ///< metres, length / 20 to length / 2
-    float tip_chord = 1.5f;          ///< metres, length / 100 to root_chord
-    float sweep = 0.08f;             ///< of the leading edge, radians, -0.5 to 0.8
-    float dihedral = 0.08f;          ///< radians, -0.2 to 0.3
+    float length = 14.4f;                             ///< of the fuselage with a nose engine's spinner, metres
+    float span = length * 20 / 14.4f;                 ///< metres, length / 4 to 4 length
+    float fuselage_diameter = length * 1.7f / 14.4f;  ///< mean of height and width, metres, length / 40 to length / 4
+    float root_chord = length * 3.7f / 14.4f;         ///< metres, length / 20 to length / 2
+    float tip_chord = root_chord * 1.5f / 3.7f;       ///< metres, length / 100 to root_chord
+    float sweep = 0.08f;                              ///< of the leading edge, radians, -0.5 to 0.8
+    float dihedral = 0.08f;                           ///< radians, -0.2 to 0.3
     float wing_position = 0.2f;  ///< of the root's leading edge ahead of the middle, share of the length, -0.1 to 0.4
-    float tail_span = 7.4f;      ///< of the tailplane, metres, at most the span
-    float fin_height = 2.1f;     ///< above the fuselage, metres, at most length / 3
-    int engines = 2;             ///< 0 to 4; odd ones sit in the nose, the others in the wings
-    float propeller_diameter = 3.4f;  ///< metres, at most the length; 0: without propellers
+    float tail_span = span * 0.37f;                    ///< of the tailplane, metres, at most the span
+    float fin_height = length * 2.1f / 14.4f;          ///< above the fuselage, metres, at most length / 3
+    int engines = 2;                                   ///< 0 to 4; odd ones sit in the nose, the others in the wings
+    float propeller_diameter = length * 3.4f / 14.4f;  ///< metres, at most the length; 0: without propellers
 
     float port_wing = 1;       ///< share of the half span that is left, 0 to 1
     float starboard_wing = 1;  ///< the same of the other

@@ -16,28 +16,29 @@ enum class stern_type : std::uint8_t { cruiser, transom };
 /// A ship standing upright on z = 0 with its keel, bow towards +x, midships at the origin: an open shell of plating on
 /// frames, with decks, hatches, deckhouse, masts and funnel; whole, broken in two, or collapsed.
 ///
-/// The default is a coaster. Proportions: H. Schneekluth, V. Bertram. Ship Design for Efficiency and Economy, 1998
-/// (length / beam 4 to 7, beam / depth 1.6 to 2.5). Sheer and bulwark: International Convention on Load Lines, 1966
-/// (regulation 38: standard sheer of 50 (L / 3 + 10) mm at the bow and half of that at the stern; regulation 25:
-/// bulwarks of 1 m). A trawler measures some 25 x 6.8 x 3.4 m, a cargo steamer of 1910 some 100 x 14.5 x 7.5 m.
+/// The default is a coaster. Sizes that are not given follow from the others in its proportions. Proportions: H.
+/// Schneekluth, V. Bertram. Ship Design for Efficiency and Economy, 1998 (length / beam 4 to 7, beam / depth 1.6
+/// to 2.5). Sheer and bulwark: International Convention on Load Lines, 1966 (regulation 38: standard sheer of 50 (L / 3
+/// + 10) mm at the bow and half of that at the stern; regulation 25: bulwarks of 1 m). A trawler measures some 25 x 6.8
+/// x 3.4 m, a cargo steamer of 1910 some 100 x 14.5 x 7.5 m.
 struct hull {
-    float length = 45;   ///< over all, metres
-    float beam = 8.2f;   ///< metres, length / 20 to length / 2
-    float depth = 4;     ///< from keel to deck amidships, metres, beam / 5 to 2 beam
-    float bulwark = 1;   ///< height above the deck, metres, at most half the depth
-    float sheer = 1.5f;  ///< times the standard sheer, 0 to 4
+    float length = 45;                ///< over all, metres
+    float beam = length * 8.2f / 45;  ///< metres, length / 20 to length / 2
+    float depth = beam * 4 / 8.2f;    ///< from keel to deck amidships, metres, beam / 5 to 2 beam
+    float bulwark = depth / 4;        ///< height above the deck, metres, at most half the depth
+    float sheer = 1.5f;               ///< times the standard sheer, 0 to 4
     stern_type stern = stern_type::cruiser;
     /// Thickness in which plating is drawn, metres; from 1/2000 of the length to 1/16 of the beam. Real plates
     /// measure 10 mm, which neither a sonar nor a grid of pixels resolves.
-    float plating = 0.12f;
+    float plating = length / 375;
 
     float house_length = 0.2f;     ///< of the deckhouse, share of the length; 0: none, at most 0.5
     float house_position = -0.3f;  ///< of its middle from midships, share of the length: -0.35 (aft) to 0.3
     int house_tiers = 2;           ///< 1 to 4, each 2.4 m high, at most half the depth and 0.08 length
     bool has_funnel = true;
-    int hatches = 2;        ///< open, 0 to 8
-    int masts = 2;          ///< 0 to 4, with two derricks each
-    float mast_height = 9;  ///< above the deck, metres, at most the length
+    int hatches = 2;                 ///< open, 0 to 8
+    int masts = 2;                   ///< 0 to 4, with two derricks each
+    float mast_height = length / 5;  ///< above the deck, metres, at most the length
 
     float break_gap = 0;          ///< metres between the two halves of a broken ship; 0: in one piece
     float break_position = 0.1f;  ///< from midships, share of the length, -0.4 to 0.4

@@ -241,7 +241,9 @@ class overhead_painter {
 template <class Shadow, class Labels, class Law, depth_precision Depth>
 frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
                     executor_ref ex) {
-    static_assert(shadow::policy<Shadow>);
+    static_assert(shadow::policy<Shadow>,
+                  "a shadow policy has build(casters, light, bounds, executor) const, which returns an object with "
+                  "test(points, results) const: see shadow/policy.hpp");
     return overhead_painter<Shadow, Labels, Law, Depth>(s, rig, options, ex).paint(ex);
 }
 template <class Law, depth_precision Depth>
