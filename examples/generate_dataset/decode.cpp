@@ -37,7 +37,8 @@ std::optional<std::string> decode_fault(const std::string& bytes, const std::str
     std::copy_n(pixels.get(), mask.size(), mask.pixels().begin());
     for (const auto& annotation : record.at("annotations"))
         if (annotation.value("mask", "") == of &&
-            run_lengths(mask, {0, 0, width, height}) != annotation.at("segmentation").at("counts"))
+            run_lengths(mask, {0, 0, width, height}) !=
+                annotation.at("segmentation").at("counts").get<std::vector<std::int64_t>>())
             return name + ": is not what the annotation says";
     return std::nullopt;
 }

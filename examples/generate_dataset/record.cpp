@@ -29,7 +29,7 @@ std::optional<std::string> file_fault(const fs::path& root, const json& record, 
     if (size != expected) return name + ": has " + std::to_string(size) + " bytes, had " + std::to_string(expected);
     const std::string bytes = insonify::read_file(path);
     const std::string sum = sha256(bytes);
-    if (sum != entry.at("sha256"))
+    if (sum != entry.at("sha256").get<std::string>())
         return name + ": SHA-256 is " + sum + ", was " + entry.at("sha256").get<std::string>();
     if (thorough) return decode_fault(bytes, name, record, entry);
     return std::nullopt;

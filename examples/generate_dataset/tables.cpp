@@ -86,7 +86,7 @@ class webdataset_writer {
         for (const json& entry : record.at("files")) {
             const std::string path = entry.at("path").get<std::string>(), of = entry.at("of").get<std::string>();
             const std::string bytes = insonify::read_file((root_ / path).string());
-            if (sha256(bytes) != entry.at("sha256"))
+            if (sha256(bytes) != entry.at("sha256").get<std::string>())
                 throw insonify::io_error((root_ / path).string() + ": is damaged; run the command again");
             // WebDataset splits names at the first dot: 000000007.target_mask.png
             const std::string extension = path.substr(path.rfind('.'));

@@ -133,10 +133,10 @@ TEST_CASE("Depth stays between the depths of the corners, on slivers too") {
         const glm::dvec2 c = 0.5 * (a + b) + glm::dvec2((random.below(2) ? 1 : -1) * (1.0 + random.below(8)) / 256, 0);
         const double edge = random.uniform(), corner = random.uniform();
         const in::mesh m{{glm::vec3(a, edge), glm::vec3(b, edge), glm::vec3(c, corner)}, {}, {{0, 1, 2}, {2, 0, 1}}};
-        const auto [lowest, highest] = std::minmax({static_cast<float>(edge), static_cast<float>(corner)});
-        const auto look = [&, lowest = lowest, highest = highest](const auto& f) {
+        const std::pair ends = std::minmax({static_cast<float>(edge), static_cast<float>(corner)});
+        const auto look = [&](const auto& f) {
             ++covered;
-            outside += f.depth < lowest || f.depth > highest || f.depth != depth(f.x, f.y);
+            outside += f.depth < ends.first || f.depth > ends.second || f.depth != depth(f.x, f.y);
         };
         in::draw(m, pixel_space{64, 64}, look, in::framebuffer<void>{depth}, {.load = in::depth_load::clear});
     }

@@ -83,10 +83,10 @@ in::mesh grid(in::random_sequence& random, std::uint32_t columns, std::uint32_t 
 in::mesh solid(in::random_sequence& random) {
     const std::uint32_t n = 3 + random.below(9);
     in::mesh m;
-    const auto [sine, cosine] = in::numeric::sin_cos_turns(random.uniform());
-    const auto add = [&, sine = sine, cosine = cosine](double x, double y, double z) {
-        m.positions.emplace_back(size / 2.0 + x, size / 2.0 + y * cosine - z * sine,
-                                 0.5 + (y * sine + z * cosine) / 99);
+    const auto turn = in::numeric::sin_cos_turns(random.uniform());
+    const auto add = [&](double x, double y, double z) {
+        m.positions.emplace_back(size / 2.0 + x, size / 2.0 + y * turn.cosine - z * turn.sine,
+                                 0.5 + (y * turn.sine + z * turn.cosine) / 99);
     };
     add(random.uniform(-2, 2), random.uniform(-2, 2), 12);
     add(random.uniform(-2, 2), random.uniform(-2, 2), -12);

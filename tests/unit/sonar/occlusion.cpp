@@ -102,7 +102,7 @@ TEST_CASE("Points of a level bottom are lit as its picture's pixels are, under a
             for (int x = 0; x < 100; ++x) {
                 if (picture.labels.instance(x, y) != in::labels::no_instance) continue;
                 const glm::dvec3 down = view.eye() + 4.0 * view.ray(x, y);
-                const double cosine = std::cos(0.6f), sine = std::sin(0.6f);
+                const double yaw = static_cast<double>(0.6f), cosine = std::cos(yaw), sine = std::sin(yaw);
                 points.push_back({300 + down.x * cosine - down.y * sine, -200 + down.x * sine + down.y * cosine, 0});
                 expected.push_back(picture.labels.shadow(x, y));
             }

@@ -73,7 +73,8 @@ class target_hits {
 
     /// Finds the hits, after all segments have been added.
     void resolve() {
-        std::stable_sort(partial_.begin(), partial_.end(), [](const part& a, const part& b) { return a.ray < b.ray; });
+        std::sort(partial_.begin(), partial_.end(),
+                  [](const part& a, const part& b) { return a.ray != b.ray ? a.ray < b.ray : a.segment < b.segment; });
         // Pointers: a span of two iterators is beyond older libraries.
         const part *next = partial_.data(), *const last = next + partial_.size();
         for (std::size_t k = 0; k < fan_->size(); ++k) {
