@@ -19096,15 +19096,14 @@ namespace detail::inline INSONIFY_FLAGS {
 /// Parses the text in one pass. Blanks separate words; a backslash at the end of a line continues it.
 class obj_reader {
   public:
-    /// @param reads_texture  whether texture coordinates are read, or skipped
-    obj_reader(std::string_view text, std::string_view name, bool reads_texture)
-        : text_(text), name_(name), reads_texture_(reads_texture) {}
+    obj_reader(std::string_view text, std::string_view name) : text_(text), name_(name) {}
 
     mesh read() {
         parse();
         return assemble(false).shape;
     }
     textured_mesh read_textured() {
+        reads_texture_ = true;
         parse();
         textured_mesh out = assemble(true);
         // A seam of the texture is no crease: vertices that it divides keep one normal.
@@ -19220,7 +19219,7 @@ class obj_reader {
         const float x = number(), y = number();
         return {x, y, number()};
     }
-    /// One or two numbers, of which a third would be a depth.
+    /// One or two numbers; a third, of solid textures, is ignored.
     glm::vec2 texture_coordinate() {
         const float u = number("a texture coordinate has no number");
         const std::string_view second = word();
@@ -19267,7 +19266,7 @@ class obj_reader {
     }
 
     /// Each distinct corner becomes a vertex, in the order of the file's positions.
-    /// @param has_texture  whether corners that differ in texture coordinates alone are distinct
+    /// @param has_texture  whether corners that differ in their texture coordinate alone are distinct
     textured_mesh assemble(bool has_texture) const {
         // Sort corners into one bucket per position, then each bucket by normal and texture.
         std::vector<std::uint32_t> bucket(positions_.size() + 1, 0);
@@ -19316,7 +19315,7 @@ class obj_reader {
 
     std::string_view text_;
     std::string_view name_;
-    bool reads_texture_;
+    bool reads_texture_ = false;
     std::size_t at_ = 0;
     std::size_t line_ = 1;
     std::vector<glm::vec3> positions_, normals_;
@@ -19343,7 +19342,7 @@ inline namespace INSONIFY_FLAGS {
 ///         index that is 0, no integer, or refers to a line not yet given; a face with fewer than 3 corners; a text
 ///         without a face, such as the path of a file, which `load_obj` takes; more than 2 GiB of text
 inline mesh read_obj(std::string_view text, std::string_view name = "OBJ text") {
-    return detail::obj_reader(text, name, false).read();
+    return detail::obj_reader(text, name).read();
 }
 
 /// `read_obj` with texture coordinates (`vt`). A position is kept once for each pair of a normal and a texture
@@ -19351,7 +19350,7 @@ inline mesh read_obj(std::string_view text, std::string_view name = "OBJ text") 
 /// texture coordinate get (0, 0).
 /// @throws io_error as `read_obj` does, and for the same faults of texture coordinates and their indices
 inline textured_mesh read_textured_obj(std::string_view text, std::string_view name = "OBJ text") {
-    return detail::obj_reader(text, name, true).read_textured();
+    return detail::obj_reader(text, name).read_textured();
 }
 
 /// `read_obj` of a file.
