@@ -66,6 +66,21 @@ TEST_CASE("A bin's instance is the target with most of its power, in any order o
     }
 }
 
+TEST_CASE("Of targets in the same place the first is named, where they fill a ray and where they do not") {
+    in::scene s;
+    s.seabed = plane;
+    for (const char* const name : {"first", "second", "third"}) s.add(plate(8, 0, 0.03f), {}, name);
+    s.add(plate(12, 0, 3), {}, "behind");
+    for (int i = 0; i < 2; ++i) s.add(plate(16, 4, 4.02f), {}, "above");
+    const auto heard = in::render(s, one_ping(5, 30, 900), cross_sections);
+    const auto named = [&](int instance) {
+        const auto all = heard.labels.instance.pixels();
+        return std::count(all.begin(), all.end(), instance);
+    };
+    for (const int first : {1, 4, 5}) CHECK(named(first) > 0);
+    for (const int other : {2, 3, 6}) CHECK(named(other) == 0);
+}
+
 TEST_CASE("A bin's shadow is labelled with the target that shades most of it") {
     in::scene s;
     s.seabed = plane;
