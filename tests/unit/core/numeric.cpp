@@ -26,7 +26,7 @@ namespace {
 using limits = std::numeric_limits<double>;
 constexpr double infinity = limits::infinity();
 const double quiet_nan = limits::quiet_NaN();
-constexpr int draws = 200000;
+constexpr int draw_count = 200000;
 
 // Expected values are computed in long double.
 constexpr long double wide(double x) {
@@ -46,7 +46,7 @@ template <class Error>
 double worst(double low, double high, Error&& error) {
     in::random_sequence random(2021);
     double largest = 0;
-    for (int i = 0; i < draws; ++i) {
+    for (int i = 0; i < draw_count; ++i) {
         const double e = error(random.uniform(low, high));
         if (!(e <= largest)) largest = e;
     }
@@ -123,7 +123,7 @@ TEST_CASE("Sine, cosine and tangent of radians agree with the C library over sev
 TEST_CASE("atan2() is accurate to 1e-15 in all quadrants and exact on the axes") {
     in::random_sequence random(5);
     double largest = 0;
-    for (int i = 0; i < draws; ++i) {
+    for (int i = 0; i < draw_count; ++i) {
         const double scale = std::exp2(random.uniform(-300, 300)), slope = std::exp2(random.uniform(-8, 8));
         const double y = scale * slope * random.uniform(-1, 1), x = scale * random.uniform(-1, 1);
         const long double expected = std::atan2(wide(y), wide(x));
@@ -148,7 +148,7 @@ TEST_CASE("atan2() is accurate to 1e-15 in all quadrants and exact on the axes")
 TEST_CASE("pow() is accurate to the error of the logarithm, and exact at 0 and 1") {
     in::random_sequence random(6);
     double largest = 0;
-    for (int i = 0; i < draws; ++i) {
+    for (int i = 0; i < draw_count; ++i) {
         const double x = std::exp2(random.uniform(-20, 20)), y = random.uniform(-20, 20);
         const long double exact = std::pow(wide(x), wide(y));
         const double bound = (std::fabs(y * std::log(x)) + 2) * 3e-16;

@@ -17,13 +17,13 @@ namespace {
 constexpr std::uint32_t first_block = 0xFFFFFFF0u;  // the counters of its blocks pass 2^32
 
 /// Draws of the blocks from `first_block` on, in the order of their words.
-struct draws {
+struct float_draws {
     std::vector<float> normals, symmetric, units, logarithms;
 };
 struct all_draws_kernel {
     [[maybe_unused]] static constexpr int avx512_lanes = 16;
 
-    draws& into;
+    float_draws& into;
 
     template <int N>
     INSONIFY_INLINE void run() const {
@@ -45,9 +45,9 @@ struct all_draws_kernel {
     }
 };
 
-draws make(std::size_t count, in::isa level) {
-    draws result{std::vector<float>(count), std::vector<float>(count), std::vector<float>(count),
-                 std::vector<float>(count)};
+float_draws make(std::size_t count, in::isa level) {
+    float_draws result{std::vector<float>(count), std::vector<float>(count), std::vector<float>(count),
+                       std::vector<float>(count)};
     in::detail::dispatch(all_draws_kernel{result}, level);
     return result;
 }
@@ -62,7 +62,7 @@ float log_of_word(std::uint32_t word) {
 
 TEST_CASE("Draws in lanes equal those of their words to a float's rounding, across blocks") {
     constexpr std::size_t count = 1 << 18;
-    const draws found = make(count, in::isa::scalar);
+    const float_draws found = make(count, in::isa::scalar);
     double normal = 0, symmetric = 0, unit = 0, logarithm = 0;
     for (std::size_t i = 0; i < count; i += 4) {
         const auto words =
@@ -84,9 +84,9 @@ TEST_CASE("Draws in lanes equal those of their words to a float's rounding, acro
 }
 
 TEST_CASE("Draws in lanes have the same bits at every instruction set") {
-    const draws scalar = make(1 << 12, in::isa::scalar);
+    const float_draws scalar = make(1 << 12, in::isa::scalar);
     for (const in::isa level : {in::isa::baseline, in::isa::avx2, in::isa::avx512}) {
-        const draws wide = make(1 << 12, level);
+        const float_draws wide = make(1 << 12, level);
         CHECK(wide.normals == scalar.normals);
         CHECK(wide.symmetric == scalar.symmetric);
         CHECK(wide.units == scalar.units);

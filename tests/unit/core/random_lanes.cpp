@@ -15,14 +15,14 @@ using namespace insonify::detail;
 namespace {
 
 /// Words, logarithms and normal draws of counters 0, 1, 2 ...
-struct draws {
+struct lane_draws {
     std::vector<std::uint32_t> words;
     std::vector<double> logarithms, normals;
 };
 struct counting_kernel {
     [[maybe_unused]] static constexpr int avx512_lanes = 16;
 
-    draws& into;
+    lane_draws& into;
     std::size_t count;
 
     template <int Width>
@@ -54,7 +54,7 @@ struct counting_kernel {
 TEST_CASE("Words, logarithms and normal draws are the same in scalar code and in lanes, at every instruction set") {
     const in::isa level = GENERATE(in::isa::scalar, in::isa::baseline, in::isa::avx2, in::isa::avx512);
     constexpr std::size_t count = 20000;
-    draws found;
+    lane_draws found;
     dispatch(counting_kernel{found, count}, level);
     REQUIRE(found.words.size() == 4 * count);
     const auto same = [](double a, double b) {

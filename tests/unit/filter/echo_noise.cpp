@@ -43,32 +43,32 @@ double three_looks(double x) {
     return 1 - std::exp(-t) * (1 + t + t * t / 2);
 }
 
-constexpr double limit = 1.95 / side;  // exceeded once in a thousand
+constexpr double ks_limit = 1.95 / side;  // exceeded once in a thousand
 
 }  // namespace
 
 TEST_CASE("Intensities follow their laws") {
     CHECK(distance(noisy(in::rayleigh{.of = in::echo::intensity, .seed = 1}),
-                   [](double x) { return 1 - std::exp(-x); }) < limit);
-    CHECK(distance(noisy(in::gamma_speckle{.looks = 3, .of = in::echo::intensity, .seed = 2}), three_looks) < limit);
+                   [](double x) { return 1 - std::exp(-x); }) < ks_limit);
+    CHECK(distance(noisy(in::gamma_speckle{.looks = 3, .of = in::echo::intensity, .seed = 2}), three_looks) < ks_limit);
     // Chi-square of one degree.
     CHECK(distance(noisy(in::gamma_speckle{.looks = 0.5f, .of = in::echo::intensity, .seed = 3}, level),
-                   [](double x) { return std::erf(std::sqrt(x / 2)); }) < limit);
+                   [](double x) { return std::erf(std::sqrt(x / 2)); }) < ks_limit);
     // K of shape 1/2: P(I > t) = exp(-sqrt(2 t)), from the integral of exp(-t / tau) over chi-square textures.
     CHECK(distance(
               noisy(in::k_speckle{.shape = 0.5f, .of = in::echo::intensity, .seed = 4}, level / 4) |
                   [](float v) { return 4 * v; },
-              [](double x) { return 1 - std::exp(-std::sqrt(2 * x)); }) < limit);
+              [](double x) { return 1 - std::exp(-std::sqrt(2 * x)); }) < ks_limit);
     CHECK(distance(noisy(in::rician{.steady = 0, .of = in::echo::intensity, .seed = 5}),
-                   [](double x) { return 1 - std::exp(-x); }) < limit);
+                   [](double x) { return 1 - std::exp(-x); }) < ks_limit);
 }
 
 TEST_CASE("Amplitudes follow their laws, with the mean of the image") {
     CHECK(distance(noisy(in::rayleigh{.seed = 1}),
-                   [](double x) { return 1 - std::exp(-x * x * in::numeric::pi / 4); }) < limit);
+                   [](double x) { return 1 - std::exp(-x * x * in::numeric::pi / 4); }) < ks_limit);
     const double mean_root = in::detail::mean_root_of_gamma(3);
     CHECK(distance(noisy(in::gamma_speckle{.looks = 3, .seed = 2}),
-                   [&](double x) { return three_looks(x * x * mean_root * mean_root); }) < limit);
+                   [&](double x) { return three_looks(x * x * mean_root * mean_root); }) < ks_limit);
     for (const auto& picture : {noisy(in::rayleigh{}), noisy(in::gamma_speckle{}), noisy(in::k_speckle{}),
                                 noisy(in::rician{}), noisy(in::rician{.steady = 20})}) {
         const auto m = of(picture);

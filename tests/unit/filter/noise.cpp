@@ -9,17 +9,20 @@
 #include <vector>
 
 #include "../../catch.hpp"
+#include "../../moments.hpp"
 
 namespace in = insonify;
 
 namespace {
 
-constexpr int side = 1024;  // 2^20 samples
+using moments::correlation;
 
-struct moments {
+constexpr int edge = 1024;  // 2^20 samples
+
+struct sample_moments {
     double mean, variance, fourth;
 };
-moments moments_of(const in::image<float>& image) {
+sample_moments moments_of(const in::image<float>& image) {
     const auto n = static_cast<double>(image.size());
     double mean = 0, second = 0, fourth = 0;
     for (const float v : image.pixels()) mean += static_cast<double>(v) / n;
@@ -61,18 +64,7 @@ double normal_cdf(double z) {
 }
 
 in::image<float> flat(float value) {
-    return in::image<float>(side, side, value);
-}
-
-double correlation(const in::image<float>& a, const in::image<float>& b, int dx, int dy) {
-    const auto ma = moments_of(a), mb = moments_of(b);
-    double sum = 0;
-    for (int y = 0; y + dy < a.height(); ++y) {
-        for (int x = 0; x + dx < a.width(); ++x) {
-            sum += (static_cast<double>(a(x, y)) - ma.mean) * (static_cast<double>(b(x + dx, y + dy)) - mb.mean);
-        }
-    }
-    return sum / (static_cast<double>(a.size()) * std::sqrt(ma.variance * mb.variance));
+    return in::image<float>(edge, edge, value);
 }
 
 }  // namespace
@@ -102,7 +94,7 @@ TEST_CASE("Clipped poisson noise has the moments of MATLAB's uint8 rule") {
 }
 
 TEST_CASE("Noise follows its law") {
-    const double limit = 1.95 / side;
+    const double limit = 1.95 / edge;
     CHECK(ks_distance(flat(0.5f) | in::gaussian{.mean = 0.02f, .variance = 0.0025f, .seed = 21},
                       [](double v) { return normal_cdf((v - 0.52) / 0.05); }) < limit);
     CHECK(ks_distance(flat(0.5f) | in::speckle{.variance = 0.1f, .seed = 22},
@@ -162,7 +154,7 @@ TEST_CASE("Poisson noise follows its law at the smallest and the largest number 
 TEMPLATE_TEST_CASE("Pixels of noise are independent of their neighbours, of other frames and of other seeds", "",
                    in::gaussian, in::speckle, in::gaussian_speckle, in::rayleigh, in::poisson) {
     const auto base = flat(0.25f) | TestType{.seed = 1};
-    const double limit = 4.5 / side;
+    const double limit = 4.5 / edge;
     CHECK(std::abs(correlation(base, base, 1, 0)) < limit);
     CHECK(std::abs(correlation(base, base, 2, 0)) < limit);
     CHECK(std::abs(correlation(base, base, 4, 0)) < limit);
@@ -178,7 +170,7 @@ TEST_CASE("Different kinds of noise under one seed are independent") {
         flat(0.25f) | in::gaussian_speckle{.seed = 5}, flat(0.25f) | in::rayleigh{.seed = 5},
         flat(0.25f) | in::poisson{.seed = 5}};
     for (std::size_t a = 0; a < kinds.size(); ++a) {
-        for (std::size_t b = 0; b < a; ++b) CHECK(std::abs(correlation(kinds[a], kinds[b], 0, 0)) < 4.5 / side);
+        for (std::size_t b = 0; b < a; ++b) CHECK(std::abs(correlation(kinds[a], kinds[b], 0, 0)) < 4.5 / edge);
     }
 }
 

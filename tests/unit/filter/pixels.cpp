@@ -12,12 +12,15 @@
 #include <cmath>
 
 #include "../../catch.hpp"
+#include "../../moments.hpp"
 
 namespace in = insonify;
 
 namespace {
 
-in::image<float> ramp(int width, int height) {
+using moments::correlation;
+
+in::image<float> stripes(int width, int height) {
     in::image<float> out(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) out(x, y) = static_cast<float>((7 * x + 13 * y) % 257) / 256.0f;
@@ -27,18 +30,6 @@ in::image<float> ramp(int width, int height) {
 template <class T, class Get>
 in::image<float> channel(const in::image<T>& source, Get get) {
     return source | [get](const T& color) { return static_cast<float>(get(color)); };
-}
-
-double correlation(const in::image<float>& a, const in::image<float>& b) {
-    double ma = 0, mb = 0, aa = 0, bb = 0, ab = 0;
-    const auto n = static_cast<double>(a.size());
-    for (const float v : a.pixels()) ma += static_cast<double>(v) / n;
-    for (const float v : b.pixels()) mb += static_cast<double>(v) / n;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const double p = static_cast<double>(a.pixels()[i]) - ma, q = static_cast<double>(b.pixels()[i]) - mb;
-        aa += p * p, bb += q * q, ab += p * q;
-    }
-    return ab / std::sqrt(aa * bb);
 }
 
 /// A user's filter in five lines: shifts values and wraps them at 1.
@@ -54,9 +45,9 @@ TEMPLATE_TEST_CASE("Noise on codes is the rounded noise on their float values", 
                    in::gaussian_speckle, in::salt_and_pepper, in::rayleigh, in::gamma_speckle, in::k_speckle,
                    in::rician, in::poisson) {
     const TestType noise{.seed = 5, .frame = 2};
-    const auto codes = ramp(150, 40) | in::to_uint8;
+    const auto codes = stripes(150, 40) | in::to_uint8;
     CHECK((codes | noise) == (codes | in::to_float | noise | in::to_uint8));
-    const auto wide = ramp(150, 40) | in::to_uint16;
+    const auto wide = stripes(150, 40) | in::to_uint16;
     CHECK((wide | noise) == (wide | in::to_float | noise | in::to_uint16));
 }
 
@@ -83,7 +74,7 @@ TEMPLATE_TEST_CASE("Parts filtered with their origin have the noise of the whole
                    in::gaussian_speckle, in::salt_and_pepper, in::rayleigh, in::gamma_speckle, in::k_speckle,
                    in::rician, in::poisson) {
     const TestType noise{.seed = 7};
-    const auto source = ramp(1100, 9);
+    const auto source = stripes(1100, 9);
     const auto whole = source | noise;
     for (const auto [x, y, width, height] : {std::array{0, 0, 1100, 9},
                                              {1, 2, 3, 4},
@@ -99,7 +90,7 @@ TEMPLATE_TEST_CASE("Parts filtered with their origin have the noise of the whole
 TEST_CASE("Correlated noise doesn't depend on parts, rows or threads either") {
     const auto noise = in::gaussian{.correlation = {2, 3}, .seed = 1} |
                        in::gamma_speckle{.looks = 2, .correlation = {1, 2}, .seed = 1};
-    const auto source = ramp(1030, 300);
+    const auto source = stripes(1030, 300);
     const auto whole = source | noise;
     in::thread_pool pool(3);
     CHECK(apply(source, noise, pool) == whole);
@@ -110,7 +101,7 @@ TEST_CASE("Correlated noise doesn't depend on parts, rows or threads either") {
 }
 
 TEST_CASE("Filters write into the caller's memory, and in place") {
-    const auto source = ramp(700, 5);
+    const auto source = stripes(700, 5);
     const auto look = in::speckle{.seed = 1} | shifted{} | in::to_uint8;
     in::image<std::uint8_t> codes(800, 7, 9);
     in::apply_into(source.view(), codes.view().part(50, 1, 700, 5), look);
@@ -129,7 +120,7 @@ TEST_CASE("Filters write into the caller's memory, and in place") {
 }
 
 TEST_CASE("A parameter by pixel or by type applies to each pixel") {
-    const auto source = ramp(600, 4);
+    const auto source = stripes(600, 4);
     in::image<std::uint8_t> types(600, 4);
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 600; ++x) types(x, y) = static_cast<std::uint8_t>((x / 3 + y) % 4);
@@ -164,9 +155,9 @@ TEST_CASE("A parameter by pixel or by type applies to each pixel") {
 }
 
 TEST_CASE("Under a mask, a filter changes and measures the chosen pixels alone") {
-    const auto source = ramp(600, 30);
+    const auto source = stripes(600, 30);
     const auto mask = source | [](float v) -> std::uint8_t { return v > 0.3f && v < 0.6f ? 2 : 0; };
-    const auto reference = ramp(40, 40) | shifted{};
+    const auto reference = stripes(40, 40) | shifted{};
     const in::match_binned match(reference);
     const auto out = source | in::where(mask, match);
     const auto chosen = in::pixels_where(mask, source);

@@ -25,7 +25,7 @@ namespace in = insonify;
 namespace {
 
 constexpr double pi = in::numeric::pi;
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 double area_of(const in::mesh& m, const glm::uvec3& t) {
     const glm::dvec3 a(m.positions[t.x]), b(m.positions[t.y]), c(m.positions[t.z]);
@@ -118,7 +118,7 @@ TEST_CASE("A truncated cone is solid, has its stated size, and is a frustum with
     CHECK_THROWS_WITH(to_mesh(in::truncated_cone{.diameter = 0}), ContainsSubstring("truncated_cone.diameter is 0"));
     CHECK_THROWS_WITH(to_mesh(in::truncated_cone{.top_diameter = 2}),
                       ContainsSubstring("truncated_cone.top_diameter is 2"));
-    CHECK_THROWS_WITH(to_mesh(in::truncated_cone{.height = nan_value}), ContainsSubstring("truncated_cone.height"));
+    CHECK_THROWS_WITH(to_mesh(in::truncated_cone{.height = not_a_number}), ContainsSubstring("truncated_cone.height"));
     CHECK_THROWS_WITH(to_mesh(in::truncated_cone{.shoulder = 1}), ContainsSubstring("truncated_cone.shoulder is 1"));
     CHECK_THROWS_WITH(to_mesh(in::truncated_cone{.boss_diameter = -1}), ContainsSubstring("boss_diameter is -1"));
     CHECK_THROWS_WITH(to_mesh(in::truncated_cone{.boss_height = 1}), ContainsSubstring("boss_height is 1"));
@@ -154,7 +154,7 @@ TEST_CASE("A wedge is solid, with its stated size and the volume of its sections
     }
     CHECK_THROWS_WITH(to_mesh(in::wedge{.length = -1}), ContainsSubstring("wedge.length is -1"));
     CHECK_THROWS_WITH(to_mesh(in::wedge{.width = 0}), ContainsSubstring("wedge.width is 0"));
-    CHECK_THROWS_WITH(to_mesh(in::wedge{.height = nan_value}), ContainsSubstring("wedge.height"));
+    CHECK_THROWS_WITH(to_mesh(in::wedge{.height = not_a_number}), ContainsSubstring("wedge.height"));
     CHECK_THROWS_WITH(to_mesh(in::wedge{.nose_height = 1}), ContainsSubstring("wedge.nose_height is 1"));
     CHECK_THROWS_WITH(to_mesh(in::wedge{.nose_width = 2}), ContainsSubstring("wedge.nose_width is 2"));
     CHECK_THROWS_WITH(to_mesh(in::wedge{.tail_height = 2}), ContainsSubstring("wedge.tail_height is 2"));
@@ -224,7 +224,7 @@ TEST_CASE("A pipe is solid, with its stated size and the volume of its wall") {
     CHECK_FALSE(is_same(in::open_pipe{.broken = 2, .seed = 3}, in::open_pipe{.broken = 2, .seed = 4}));
     CHECK(in::segments_for(in::open_pipe{}, 0.001f) == in::segments_for(0.355f, 0.001f));
     CHECK_THROWS_WITH(to_mesh(in::open_pipe{.diameter = 0}), ContainsSubstring("open_pipe.diameter is 0"));
-    CHECK_THROWS_WITH(to_mesh(in::open_pipe{.length = nan_value}), ContainsSubstring("open_pipe.length"));
+    CHECK_THROWS_WITH(to_mesh(in::open_pipe{.length = not_a_number}), ContainsSubstring("open_pipe.length"));
     CHECK_THROWS_WITH(to_mesh(in::open_pipe{.wall = 0.4f}), ContainsSubstring("open_pipe.wall is 0.4"));
     CHECK_THROWS_WITH(to_mesh(in::open_pipe{.flange = 1}), ContainsSubstring("open_pipe.flange is 1"));
     CHECK_THROWS_WITH(to_mesh(in::open_pipe{.broken = 7}), ContainsSubstring("open_pipe.broken is 7"));
@@ -288,7 +288,7 @@ TEST_CASE("A crate is solid, with its stated size, and loses boards with damage"
     CHECK_THROWS_WITH(to_mesh(in::crate{.board = 0.2f}), ContainsSubstring("crate.board is 0.2"));
     CHECK_THROWS_WITH(to_mesh(in::crate{.boards = 0}), ContainsSubstring("crate.boards is 0"));
     CHECK_THROWS_WITH(to_mesh(in::crate{.gap = 1}), ContainsSubstring("crate.gap is 1"));
-    CHECK_THROWS_WITH(to_mesh(in::crate{.damage = nan_value}), ContainsSubstring("crate.damage"));
+    CHECK_THROWS_WITH(to_mesh(in::crate{.damage = not_a_number}), ContainsSubstring("crate.damage"));
 }
 
 TEST_CASE("A lobster pot is solid, with its stated size to within a bar's thickness") {
@@ -319,7 +319,7 @@ TEST_CASE("A lobster pot is solid, with its stated size to within a bar's thickn
                     }
     CHECK_THROWS_WITH(to_mesh(in::lobster_pot{.length = 0}), ContainsSubstring("lobster_pot.length is 0"));
     CHECK_THROWS_WITH(to_mesh(in::lobster_pot{.width = -2}), ContainsSubstring("lobster_pot.width is -2"));
-    CHECK_THROWS_WITH(to_mesh(in::lobster_pot{.height = nan_value}), ContainsSubstring("lobster_pot.height"));
+    CHECK_THROWS_WITH(to_mesh(in::lobster_pot{.height = not_a_number}), ContainsSubstring("lobster_pot.height"));
     CHECK_THROWS_WITH(to_mesh(in::lobster_pot{.bar = 1}), ContainsSubstring("lobster_pot.bar is 1"));
     CHECK_THROWS_WITH(to_mesh(in::lobster_pot{.hoops = 1}), ContainsSubstring("lobster_pot.hoops is 1"));
     CHECK_THROWS_WITH(to_mesh(in::lobster_pot{.mesh_size = 0.001f}), ContainsSubstring("lobster_pot.mesh_size"));
@@ -416,7 +416,7 @@ TEST_CASE("A hull refuses parameters out of range by name and value") {
         CHECK_THROWS_WITH(to_mesh(h), ContainsSubstring(text));
     };
     check({.length = 0}, "hull.length is 0");
-    check({.length = nan_value}, "hull.length");
+    check({.length = not_a_number}, "hull.length");
     check({.beam = 40}, "hull.beam is 40");
     check({.depth = 1}, "hull.depth is 1");
     check({.bulwark = -1}, "hull.bulwark is -1");
@@ -490,7 +490,7 @@ TEST_CASE("An aeroplane stays solid without its wings and tail") {
     check({.fin_height = 0}, "aeroplane.fin_height is 0");
     check({.engines = 5}, "aeroplane.engines is 5");
     check({.propeller_diameter = -1}, "aeroplane.propeller_diameter is -1");
-    check({.port_wing = nan_value}, "aeroplane.port_wing");
+    check({.port_wing = not_a_number}, "aeroplane.port_wing");
     check({.starboard_wing = 2}, "aeroplane.starboard_wing is 2");
     check({.torn_off = -1}, "aeroplane.torn_off is -1");
     check({.tail_gap = -1}, "aeroplane.tail_gap is -1");

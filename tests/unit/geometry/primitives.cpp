@@ -22,7 +22,7 @@ namespace in = insonify;
 namespace {
 
 constexpr double pi = in::numeric::pi;
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 struct measures {
     double area = 0;
@@ -225,11 +225,11 @@ TEST_CASE("segments_for gives the fewest segments within the chord error") {
     CHECK(in::segments_for(1, static_cast<float>(1 - std::sqrt(0.5)) + 1e-7f) == 4);
     CHECK_THROWS_AS(in::segments_for(1, 0), in::invalid_input);
     CHECK_THROWS_AS(in::segments_for(1, 1e-13f), in::invalid_input);
-    CHECK_THROWS_AS(in::segments_for(nan_value, 1), in::invalid_input);
+    CHECK_THROWS_AS(in::segments_for(not_a_number, 1), in::invalid_input);
 }
 
 TEST_CASE("A primitive refuses sizes and segments out of range") {
-    const float bad = GENERATE(0.0f, -1.0f, nan_value, std::numeric_limits<float>::infinity());
+    const float bad = GENERATE(0.0f, -1.0f, not_a_number, std::numeric_limits<float>::infinity());
     CHECK_THROWS_AS(to_mesh(in::cube{.size = {1, bad, 1}}), in::invalid_input);
     CHECK_THROWS_AS(to_mesh(in::cylinder{.radius = bad}), in::invalid_input);
     CHECK_THROWS_AS(to_mesh(in::cylinder{.length = bad}), in::invalid_input);
@@ -298,7 +298,7 @@ TEST_CASE("Topology distinguishes open, tangled and closed surfaces") {
         m.triangles.push_back({0, 4, 1});
         CHECK(in::inspect(m).degenerate == 1);
         CHECK(in::inspect(m).closed());
-        CHECK(in::weld({{nan_value, 0, 0}, {nan_value, 0, 0}, {-0.0f, 1, 2}, {0.0f, 1, 2}}) ==
+        CHECK(in::weld({{not_a_number, 0, 0}, {not_a_number, 0, 0}, {-0.0f, 1, 2}, {0.0f, 1, 2}}) ==
               std::vector<std::uint32_t>{0, 1, 2, 2});
     }
     SECTION("an inward-facing piece is closed, and makes the mesh not solid, beside or inside an outward-facing one") {
@@ -340,7 +340,7 @@ TEST_CASE("Smooth normals weight by angle: a cube's corner points along the diag
     for (const std::uint32_t i : first) {
         CHECK(glm::length(normals[i] - glm::normalize(cube.positions[i])) < 1e-6f);
     }
-    in::mesh flat{.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {nan_value, 0, 0}}, .normals = {}, .triangles = {}};
+    in::mesh flat{.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {not_a_number, 0, 0}}, .normals = {}, .triangles = {}};
     flat.triangles = {{0, 1, 2}, {0, 1, 3}};
     for (const glm::vec3& n : in::smooth_normals(flat)) CHECK(n == glm::vec3(0, 0, 1));
 }

@@ -15,7 +15,7 @@ namespace {
 
 using in::detail::clip_polygon;
 
-const in::detail::projection to_screen(in::detail::pixel_grid{8, 64, 64}, in::keep_depth::smaller);
+const in::detail::projection to_small_screen(in::detail::pixel_grid{8, 64, 64}, in::keep_depth::smaller);
 
 glm::dvec4 any_position(in::random_sequence& random) {
     const auto at = [&] { return random.uniform(-3, 3); };
@@ -42,8 +42,8 @@ TEST_CASE("Triangles that share a clipped edge get the same new vertices, to the
     int cut_once = 0, cut_twice = 0;
     for (int n = 0; n < 20000; ++n) {
         const glm::dvec4 a = any_position(random), b = any_position(random);
-        const auto left = cuts_of_first_edge(to_screen.clip({a, b, any_position(random)}));
-        const auto right = cuts_of_first_edge(to_screen.clip({b, a, any_position(random)}));
+        const auto left = cuts_of_first_edge(to_small_screen.clip({a, b, any_position(random)}));
+        const auto right = cuts_of_first_edge(to_small_screen.clip({b, a, any_position(random)}));
         if (left.size() != right.size()) continue;  // a plane cut off the edge together with one of the third corners
         cut_once += left.size() == 1;
         cut_twice += left.size() == 2;

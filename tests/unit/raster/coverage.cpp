@@ -12,7 +12,7 @@ using namespace testing_raster;
 
 namespace {
 
-constexpr int size = 32;  // pixels a side
+constexpr int screen_side = 32;  // pixels a side
 
 /// Two numbers at random.
 template <class At>
@@ -33,15 +33,15 @@ struct any_triangle {
         };
         const auto on_grid = [&](double step) {
             const auto at = [&] {
-                return step * static_cast<double>(random.below(static_cast<std::uint32_t>(size / step)));
+                return step * static_cast<double>(random.below(static_cast<std::uint32_t>(screen_side / step)));
             };
             return std::array{pair_of(at), pair_of(at), pair_of(at)};
         };
         switch (kind) {
-            case 0: return uniform_in(-8, size + 8);
+            case 0: return uniform_in(-8, screen_side + 8);
             case 1: return around_a_point(uniform_in(-0.7, 0.7));  // about as large as a pixel
             case 2: return around_a_point(uniform_in(-8, 8));
-            case 3: return sliver(2 * size);
+            case 3: return sliver(2 * screen_side);
             case 4: return on_grid(0.5);       // on the centres and corners of pixels
             case 5: return on_grid(1.0 / 16);  // on edges of each other
             case 6: return uniform_in(-2000, 2000);
@@ -53,7 +53,7 @@ struct any_triangle {
 
   private:
     std::array<glm::dvec2, 3> around_a_point(std::array<glm::dvec2, 3> corners) {
-        const glm::dvec2 point = pair_of([&] { return random.uniform(0, size); });
+        const glm::dvec2 point = pair_of([&] { return random.uniform(0, screen_side); });
         for (glm::dvec2& corner : corners) corner += point;
         return corners;
     }
@@ -70,7 +70,7 @@ struct any_triangle {
             return static_cast<double>(low +
                                        static_cast<int>(random.below(static_cast<std::uint32_t>(high - low + 1))));
         };
-        const glm::dvec2 centre = 0.5 + pair_of([&] { return whole(0, size - 1); });
+        const glm::dvec2 centre = 0.5 + pair_of([&] { return whole(0, screen_side - 1); });
         const glm::dvec2 step = pair_of([&] { return whole(-5, 5); });
         const double away = random.below(2) == 0 ? 100 : 100000;
         const glm::dvec2 third = 0.5 + pair_of([&] { return whole(-static_cast<int>(away), static_cast<int>(away)); });
@@ -80,8 +80,8 @@ struct any_triangle {
     /// Corners up to `distance` away, with an edge or two through the picture.
     std::array<glm::dvec2, 3> past_the_picture(double distance) {
         const glm::dvec2 direction = pair_of([&] { return random.uniform(-distance, distance); });
-        const glm::dvec2 inside = pair_of([&] { return random.uniform(0, size); });
-        const glm::dvec2 third = random.below(2) == 0 ? pair_of([&] { return random.uniform(0, size); })
+        const glm::dvec2 inside = pair_of([&] { return random.uniform(0, screen_side); });
+        const glm::dvec2 third = random.below(2) == 0 ? pair_of([&] { return random.uniform(0, screen_side); })
                                                       : pair_of([&] { return random.uniform(-distance, distance); });
         return {inside + direction, inside - random.uniform() * direction, third};
     }
@@ -96,25 +96,25 @@ class comparison {
         glm::dvec2 seen[3];
         for (std::size_t i = 0; i < 3; ++i) {
             mesh_.positions[i] = glm::vec3(corners[i], 0.5);
-            seen[i] = on_screen(space_({mesh_.positions[i], {}, 0}), size, size);
+            seen[i] = on_screen(space_({mesh_.positions[i], {}, 0}), screen_side, screen_side);
         }
         options.load = in::depth_load::clear;
         std::fill(hit_.pixels().begin(), hit_.pixels().end(), 0);
         in::draw(
             mesh_, space_, [&](const auto& f) { ++hit_(f.x, f.y); }, in::framebuffer<void>{depth_}, options);
         const oracle judge(seen, options.subpixel_bits);
-        for (int y = 0; y < size; ++y)
-            for (int x = 0; x < size; ++x) {
+        for (int y = 0; y < screen_side; ++y)
+            for (int x = 0; x < screen_side; ++x) {
                 wrong += hit_(x, y) != (judge.covers(x, y) ? 1 : 0);
                 covered += hit_(x, y);
             }
     }
 
   private:
-    pixel_space space_{size, size};
+    pixel_space space_{screen_side, screen_side};
     in::mesh mesh_{std::vector<glm::vec3>(3), {}, {{0, 1, 2}}};
-    in::image<float> depth_{size, size};
-    in::image<std::uint8_t> hit_{size, size};
+    in::image<float> depth_{screen_side, screen_side};
+    in::image<std::uint8_t> hit_{screen_side, screen_side};
 };
 
 /// Checks `count` triangles of each kind, over all sub-pixel grids, tile sizes and instruction sets.

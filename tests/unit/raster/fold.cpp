@@ -10,13 +10,13 @@ using namespace testing_raster;
 
 namespace {
 
-constexpr int size = 24, bits = 4;  // a coarse grid folds often
+constexpr int screen_size = 24, screen_bits = 4;  // a coarse grid folds often
 
 in::detail::clip_polygon polygon_of(const std::vector<glm::dvec2>& pixels) {
     in::detail::clip_polygon polygon;
     for (const glm::dvec2& p : pixels)
-        polygon.corners[static_cast<std::size_t>(polygon.count++)].position = {p.x / size * 2 - 1, 1 - p.y / size * 2,
-                                                                               0.5, 1};
+        polygon.corners[static_cast<std::size_t>(polygon.count++)].position = {p.x / screen_size * 2 - 1,
+                                                                               1 - p.y / screen_size * 2, 0.5, 1};
     return polygon;
 }
 
@@ -39,26 +39,26 @@ std::vector<glm::dvec2> thin_polygon(in::random_sequence& random) {
 
 TEST_CASE("The parts of a polygon cover the pixels of non-zero winding number in its direction") {
     in::random_sequence random(6);
-    const in::detail::pixel_grid grid{bits, size, size};
+    const in::detail::pixel_grid grid{screen_bits, screen_size, screen_size};
     const in::detail::projection to_screen(grid, in::keep_depth::smaller);
     int folded = 0, covered = 0;
     for (int n = 0; n < 4000; ++n) {
         const auto points = thin_polygon(random);
         const in::detail::screen_polygon polygon(polygon_of(points), to_screen);
-        in::image<int> count(size, size), winding(size, size);
+        in::image<int> count(screen_size, screen_size), winding(screen_size, screen_size);
         bool runs = false;
         polygon.for_each_part(grid, [&](std::array<int, 3> corners, const in::rect& pixels, bool is_run) {
             runs |= is_run;
             glm::dvec2 corner[3];
             for (std::size_t k = 0; k < 3; ++k) corner[k] = points[static_cast<std::size_t>(corners[k])];
-            const oracle part(corner, bits);
+            const oracle part(corner, screen_bits);
             for (int y = pixels.y0; y < pixels.y1; ++y)
                 for (int x = pixels.x0; x < pixels.x1; ++x) count(x, y) += is_run || part.covers(x, y) ? 1 : 0;
         });
         for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-            const oracle part({points[0], points[i], points[i + 1]}, bits);
-            for (int y = 0; y < size; ++y)
-                for (int x = 0; x < size; ++x)
+            const oracle part({points[0], points[i], points[i + 1]}, screen_bits);
+            for (int y = 0; y < screen_size; ++y)
+                for (int x = 0; x < screen_size; ++x)
                     if (part.covers(x, y)) winding(x, y) += part.is_clockwise() ? 1 : -1;
         }
         folded += runs;
@@ -81,23 +81,24 @@ TEST_CASE("A run of a folded polygon is drawn to its ends and no further") {
         for (const std::size_t i : {0u, 1u, 3u})
             m.positions.emplace_back(points[i], i == 3 ? -0.4 : 0.5 + 0.3 * static_cast<double>(i));
         const auto place = [](const in::vertex& v) {
-            const glm::vec4 p = pixel_space{size, size}({{v.position.x, v.position.y, 0}, {}, 0});
+            const glm::vec4 p = pixel_space{screen_size, screen_size}({{v.position.x, v.position.y, 0}, {}, 0});
             return glm::vec4(p.x * v.position.z, p.y * v.position.z, v.position.z * 0.9f - 0.05f, v.position.z);
         };
-        const in::detail::pixel_grid grid{bits, size, size};
+        const in::detail::pixel_grid grid{screen_bits, screen_size, screen_size};
         const in::detail::projection to_screen(grid, in::keep_depth::smaller);
         std::array<glm::dvec4, 3> clip;
         for (std::uint32_t i = 0; i < 3; ++i) clip[i] = glm::dvec4(place({m.positions[i], {}, i}));
         const auto cut = to_screen.clip(clip);
-        in::image<int> expected(size, size);
+        in::image<int> expected(screen_size, screen_size);
         if (cut.count >= 3) {
             std::vector<glm::dvec2> corners;
             for (int i = 0; i < cut.count; ++i)
-                corners.push_back(on_screen(cut.corners[static_cast<std::size_t>(i)].position, size, size));
+                corners.push_back(
+                    on_screen(cut.corners[static_cast<std::size_t>(i)].position, screen_size, screen_size));
             for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-                const oracle part({corners[0], corners[i], corners[i + 1]}, bits);
-                for (int y = 0; y < size; ++y)
-                    for (int x = 0; x < size; ++x)
+                const oracle part({corners[0], corners[i], corners[i + 1]}, screen_bits);
+                for (int y = 0; y < screen_size; ++y)
+                    for (int x = 0; x < screen_size; ++x)
                         if (part.covers(x, y)) expected(x, y) += part.is_clockwise() ? 1 : -1;
             }
             const in::detail::screen_polygon polygon(cut, to_screen);
@@ -106,10 +107,10 @@ TEST_CASE("A run of a folded polygon is drawn to its ends and no further") {
         }
         for (const int tile : {8, 32}) {
             // A pixel has a fragment and a depth where the needle is, and neither elsewhere.
-            in::image<int> count(size, size), deep(size, size);
-            in::image<float> depth(size, size);
+            in::image<int> count(screen_size, screen_size), deep(screen_size, screen_size);
+            in::image<float> depth(screen_size, screen_size);
             in::draw(m, place, [&](const auto& f) { ++count(f.x, f.y); }, in::framebuffer<void>{depth},
-                     {.load = in::depth_load::clear, .subpixel_bits = bits, .tile = tile});
+                     {.load = in::depth_load::clear, .subpixel_bits = screen_bits, .tile = tile});
             for (std::size_t i = 0; i < deep.size(); ++i) deep.pixels()[i] = depth.pixels()[i] <= 1;
             if (count != expected || deep != expected) FAIL("needle " << n);
         }

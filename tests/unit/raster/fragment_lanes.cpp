@@ -18,7 +18,7 @@ struct varyings {
 };
 
 /// A pinhole at (0, 0, 3) that looks down, with reversed depth.
-const auto pinhole = [](const in::vertex& v) {
+const auto seen_from_above = [](const in::vertex& v) {
     const glm::vec3& p = v.position;
     return in::placed_vertex<varyings>{{p.x, p.y, 0.01f, 3 - p.z}, {p, p.z}};
 };
@@ -74,7 +74,7 @@ pictures drawn(const in::mesh& m, in::isa level, int tile, auto&& ex) {
     pictures out;
     const in::draw_options<Depth> options{
         .keep = in::keep_depth::larger, .load = in::depth_load::clear, .tile = tile, .level = level};
-    const auto stats = in::draw(m, pinhole, lane_shader{out}, in::framebuffer<void>{out.depth}, options, ex);
+    const auto stats = in::draw(m, seen_from_above, lane_shader{out}, in::framebuffer<void>{out.depth}, options, ex);
     CHECK(stats.pixels > 8000);
     CHECK(stats.clipped > 10);
     return out;
@@ -88,7 +88,7 @@ TEST_CASE(
     const in::mesh m = rubble();
     pictures one;
     in::image<int> covered(150, 110);
-    in::draw(m, pinhole,
+    in::draw(m, seen_from_above,
              [&](const in::fragment<varyings>& f) {
                  const glm::vec3& p = f.varyings.position;
                  one.value(f.x, f.y) = p.x * p.x + f.varyings.height;
@@ -133,7 +133,7 @@ namespace {
 /// A user's vertex shader with a form over lanes.
 struct both_ways {
     int& lanes;
-    auto operator()(const in::vertex& v) const { return pinhole(v); }
+    auto operator()(const in::vertex& v) const { return seen_from_above(v); }
     template <class Floats>
     void operator()(Floats (&clip)[4], Floats* out, const Floats (&position)[3], const Floats (&)[3]) const {
         ++lanes;
@@ -149,13 +149,13 @@ TEST_CASE("A vertex shader over lanes is used where there are lanes, for depth a
     in::image<float> depth(150, 110), expected(150, 110);
     const in::draw_options<> options{.keep = in::keep_depth::larger, .load = in::depth_load::clear};
     in::draw(m, both_ways{lanes}, in::depth_target{depth}, options);
-    in::draw(m, pinhole, in::depth_target{expected}, options);
+    in::draw(m, seen_from_above, in::depth_target{expected}, options);
     CHECK(depth == expected);
     if (in::best_isa() >= in::isa::avx2) CHECK(lanes == 300);
 }
 
 TEST_CASE("A picture of more than 2^16 tiles a side is refused") {
     in::image<float> depth((8 << 16) + 1, 1);
-    CHECK_THROWS_AS(in::draw(rubble(), pinhole, in::depth_target{depth}, {.tile = 8}), in::invalid_input);
-    CHECK_NOTHROW(in::draw(rubble(), pinhole, in::depth_target{depth}, {.tile = 16}));
+    CHECK_THROWS_AS(in::draw(rubble(), seen_from_above, in::depth_target{depth}, {.tile = 8}), in::invalid_input);
+    CHECK_NOTHROW(in::draw(rubble(), seen_from_above, in::depth_target{depth}, {.tile = 16}));
 }

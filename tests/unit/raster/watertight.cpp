@@ -11,16 +11,16 @@ using namespace testing_raster;
 
 namespace {
 
-constexpr int size = 16;  // pixels a side
+constexpr int screen = 16;  // pixels a side
 
 /// Counts the hits of each pixel by a mesh's triangles, drawn one by one; front and back faces separately.
 struct hit_counter {
-    in::image<int> front{size, size}, back{size, size};
+    in::image<int> front{screen, screen}, back{screen, screen};
     in::mesh one{};
-    in::image<float> depth{size, size};
+    in::image<float> depth{screen, screen};
 
     void draw(const in::mesh& m, auto&& place, in::draw_options<> options) {
-        front = back = in::image<int>(size, size);
+        front = back = in::image<int>(screen, screen);
         options.load = in::depth_load::clear;
         one.positions = m.positions;
         for (const glm::uvec3& t : m.triangles) {
@@ -45,9 +45,9 @@ in::draw_options<> any_options(in::random_sequence& random) {
 /// Triangles around a point in the picture, whose outer ends lie outside of it.
 in::mesh fan(in::random_sequence& random) {
     const std::uint32_t n = 4 + random.below(20);
-    in::mesh m{{glm::vec3(random.uniform(0, size), random.uniform(0, size), 0.5)}, {}, {}};
+    in::mesh m{{glm::vec3(random.uniform(0, screen), random.uniform(0, screen), 0.5)}, {}, {}};
     for (std::uint32_t i = 0; i < n; ++i) {
-        const double turn = (i + random.uniform(0.1, 0.4)) / n, radius = size * random.uniform(3, 9);
+        const double turn = (i + random.uniform(0.1, 0.4)) / n, radius = screen * random.uniform(3, 9);
         const auto [sine, cosine] = in::numeric::sin_cos_turns(turn);
         m.positions.emplace_back(m.positions[0] + glm::vec3(radius * cosine, radius * sine, 0));
         m.triangles.push_back({0, 1 + i, 1 + (i + 1) % n});
@@ -61,8 +61,8 @@ in::mesh grid(in::random_sequence& random, std::uint32_t columns, std::uint32_t 
     for (std::uint32_t j = 0; j <= rows; ++j)
         for (std::uint32_t i = 0; i <= columns; ++i) {
             const auto at = [&](std::uint32_t k, std::uint32_t n) {
-                if (k == 0 || k == n) return k == 0 ? -4.0 : size + 4.0;
-                return size * (k + random.uniform(-0.2, 0.2)) / n;
+                if (k == 0 || k == n) return k == 0 ? -4.0 : screen + 4.0;
+                return screen * (k + random.uniform(-0.2, 0.2)) / n;
             };
             const double x = at(i, columns);
             m.positions.emplace_back(x, at(j, rows), 0.5);
@@ -85,7 +85,7 @@ in::mesh solid(in::random_sequence& random) {
     in::mesh m;
     const auto turn = in::numeric::sin_cos_turns(random.uniform());
     const auto add = [&](double x, double y, double z) {
-        m.positions.emplace_back(size / 2.0 + x, size / 2.0 + y * turn.cosine - z * turn.sine,
+        m.positions.emplace_back(screen / 2.0 + x, screen / 2.0 + y * turn.cosine - z * turn.sine,
                                  0.5 + (y * turn.sine + z * turn.cosine) / 99);
     };
     add(random.uniform(-2, 2), random.uniform(-2, 2), 12);
@@ -118,8 +118,8 @@ struct plane_view {
         mesh = grid(random, n, n);
         const double reach = random.below(4) == 0 ? 1000 : random.below(2) == 0 ? 100 : 12;
         for (glm::vec3& p : mesh.positions)
-            p = glm::vec3((p.x / size - 0.5f) * static_cast<float>(reach),
-                          (p.y / size - 0.5f) * static_cast<float>(reach), 0);
+            p = glm::vec3((p.x / screen - 0.5f) * static_cast<float>(reach),
+                          (p.y / screen - 0.5f) * static_cast<float>(reach), 0);
     }
     glm::vec4 operator()(const in::vertex& v) const {
         const glm::dvec3 p = in::numeric::product(turn, glm::dvec3(v.position.x, v.position.y, 1));
@@ -127,7 +127,7 @@ struct plane_view {
     }
     /// w where a pixel's ray meets the plane, and how far from the middle of the mesh that is.
     glm::dvec2 hit(int x, int y) const {
-        const glm::dvec3 ray((x + 0.5) / size * 2 - 1, 1 - (y + 0.5) / size * 2, 1);
+        const glm::dvec3 ray((x + 0.5) / screen * 2 - 1, 1 - (y + 0.5) / screen * 2, 1);
         const glm::dvec3 uv1 =
             in::numeric::product(glm::transpose(in::numeric::cofactors(turn)), ray) / in::numeric::determinant(turn);
         return {1 / uv1.z, (std::max)(std::abs(uv1.x), std::abs(uv1.y)) / std::abs(uv1.z)};
@@ -145,7 +145,7 @@ void check_meshes(std::uint64_t first_seed, std::uint64_t count) {
             for (glm::vec3& p : m.positions) p += offset;
             return m;
         };
-        const pixel_space space{size, size};
+        const pixel_space space{screen, screen};
         hits.draw(moved(fan(random)), space, any_options(random));
         if (hits.faults() != 0) FAIL("a fan has " << hits.faults() << " pixels that are not hit once");
         hits.draw(moved(grid(random, 2 + random.below(9), 1)), space, any_options(random));
@@ -159,8 +159,8 @@ void check_meshes(std::uint64_t first_seed, std::uint64_t count) {
         in::draw_options<> options = any_options(random);
         options.subpixel_bits = (std::max)(options.subpixel_bits, 8);
         hits.draw(view.mesh, view, options);
-        for (int y = 0; y < size; ++y)
-            for (int x = 0; x < size; ++x) {
+        for (int y = 0; y < screen; ++y)
+            for (int x = 0; x < screen; ++x) {
                 const int count_here = hits.front(x, y) + hits.back(x, y);
                 if (count_here > 1) FAIL("a clipped plane has a pixel that is hit " << count_here << " times");
                 // Well inside the mesh and the clipping planes.
@@ -203,10 +203,10 @@ TEST_CASE("Large triangles across several planes of the frustum share their edge
                          {{0, 1, 3}, {0, 3, 2}}};
         in::mesh outline = m;
         hits.draw(m, place, any_options(random));
-        for (int y = 0; y < size; ++y)
-            for (int x = 0; x < size; ++x) CHECK(hits.front(x, y) + hits.back(x, y) <= 1);
+        for (int y = 0; y < screen; ++y)
+            for (int x = 0; x < screen; ++x) CHECK(hits.front(x, y) + hits.back(x, y) <= 1);
         // Drawn at once or one by one, the same pixels are hit.
-        in::image<float> depth(size, size);
+        in::image<float> depth(screen, screen);
         in::draw(m, place, in::depth_target{depth}, {.load = in::depth_load::clear});
         CHECK(in::draw(m, place, in::depth_target{depth}).clipped == 2);
     }

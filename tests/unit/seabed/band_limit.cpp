@@ -5,13 +5,12 @@
 #include <cmath>
 
 #include "../../catch.hpp"
+#include "smooth.hpp"
 
 namespace in = insonify;
 namespace sb = insonify::seabed;
 
 namespace {
-
-constexpr sb::roughness smooth{.rms = 0};
 
 sb::heightfield sampled(const sb::any& source, double spacing, bool band_limited = true, int size = 192) {
     return sb::sample(

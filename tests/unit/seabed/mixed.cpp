@@ -5,13 +5,12 @@
 #include <cmath>
 
 #include "../../catch.hpp"
+#include "smooth.hpp"
 
 namespace in = insonify;
 namespace sb = insonify::seabed;
 
 namespace {
-
-constexpr sb::roughness smooth{.rms = 0};
 
 sb::type type_at(const sb::mixed& m, double x, double y) {
     return sb::at(m, x, y).kind;

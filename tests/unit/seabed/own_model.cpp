@@ -59,14 +59,14 @@ struct own_ripples {
 };
 
 /// An unbounded slope that states no range.
-struct slope {
+struct endless_slope {
     static constexpr sb::type kind = sb::type::rock;
     void row(const sb::scanline& line, std::span<float> heights) const {
         for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = static_cast<float>(0.01 * line.x(i));
     }
 };
 
-static_assert(sb::model<dunes> && sb::model<stripes> && sb::model<own_ripples> && sb::model<slope>);
+static_assert(sb::model<dunes> && sb::model<stripes> && sb::model<own_ripples> && sb::model<endless_slope>);
 
 const in::overhead rig{.position = {120, -40}, .size = {160, 120}, .grazing = in::literals::operator""_deg(8ull)};
 
@@ -173,7 +173,7 @@ TEST_CASE("Own seabeds are layered, sculpted and sampled, and carry targets, as 
 
 TEST_CASE("A seabed without a range is drawn in range modes and refused by overhead pictures") {
     in::scene s;
-    s.seabed = slope{};
+    s.seabed = endless_slope{};
     CHECK_NOTHROW(in::render(s, in::side_scan{.pings = 4, .range = 20, .bins = 64}));
     CHECK_THROWS_WITH(in::render(s, in::overhead{.size = {8, 8}}), ContainsSubstring("range() of the seabed is inf"));
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../../catch.hpp"
+#include "smooth.hpp"
 
 namespace in = insonify;
 namespace sb = insonify::seabed;
@@ -13,7 +14,6 @@ namespace sb = insonify::seabed;
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr sb::roughness smooth{.rms = 0};
 
 struct moments {
     double mean = 0, variance = 0, kurtosis = 0, low = 1e30, high = -1e30;

@@ -15,7 +15,7 @@ using namespace refusals;
 
 namespace {
 
-const auto prepared = [](const auto& model) { (void)sb::any(model).prepare(); };
+const auto prepare_any = [](const auto& model) { (void)sb::any(model).prepare(); };
 
 constexpr double most = 1e6;  // metres
 
@@ -29,7 +29,7 @@ constexpr double most = 1e6;  // metres
 
 TEST_CASE("Each field of a roughness is refused by name") {
     static_assert(members<sb::roughness>() == 4 && members<sb::flat>() == 3);
-    check_fields<sb::roughness>("roughness.", {}, [](const sb::roughness& r) { prepared(sb::flat{.surface = r}); },
+    check_fields<sb::roughness>("roughness.", {}, [](const sb::roughness& r) { prepare_any(sb::flat{.surface = r}); },
                                 {FIELD(rms, outside(0, most)), FIELD(longest, outside(0, most)),
                                  FIELD(shortest, outside(1e-4, 1)), FIELD(exponent, outside(2, 4))});
 }
@@ -37,7 +37,7 @@ TEST_CASE("Each field of a roughness is refused by name") {
 TEST_CASE("Each field of ripples is refused by name") {
     static_assert(members<sb::ripples>() == 10 && members<sb::ripple_system>() == 6);
     check_fields<sb::ripples>(
-        "ripples.", {}, prepared,
+        "ripples.", {}, prepare_any,
         {FIELD(wavelength, outside(0, most)), FIELD(steepness, outside(0, 0.5)), FIELD(direction, not_finite),
          FIELD(spread, outside(0, 0.5)), FIELD(bandwidth, outside(0, 0.25)), FIELD(sharpness, outside(0, 0.9)),
          FIELD(second.wavelength, outside(0, most)), FIELD(second.steepness, outside(0, 0.5)),
@@ -48,15 +48,15 @@ TEST_CASE("Each field of ripples is refused by name") {
 TEST_CASE("Each field of mud, its trawl marks and rock is refused by name") {
     static_assert(members<sb::trawl_marks>() == 5);
     check_fields<sb::mud>(
-        "mud.", {}, prepared,
+        "mud.", {}, prepare_any,
         {FIELD(density, below_0), FIELD(size, outside(0, most)), FIELD(mound_height, outside(0, most)),
          FIELD(pock_depth, outside(0, most)), FIELD(pock_share, outside(0, 1))});
     check_fields<sb::trawl_marks>(
-        "trawl_marks.", {.density = 0.05f}, [](const sb::trawl_marks& t) { prepared(sb::mud{.trawls = t}); },
+        "trawl_marks.", {.density = 0.05f}, [](const sb::trawl_marks& t) { prepare_any(sb::mud{.trawls = t}); },
         {FIELD(density, outside(0, 0.5)), FIELD(depth, outside(0, most)), FIELD(width, outside(0, most)),
          FIELD(directions, outside_whole(1, 8)), FIELD(length, outside(0, most))});
     check_fields<sb::rock>(
-        "rock.", {}, prepared,
+        "rock.", {}, prepare_any,
         {FIELD(relief, outside(0, most)), FIELD(outcrop, outside(0, most)), FIELD(block, outside(0, most)),
          FIELD(smallest, outside(1e-3, 1.4)), FIELD(sizes, outside(0, 4)), FIELD(fracture, outside(0, 1)),
          FIELD(steepness, outside(0, most))});
@@ -64,12 +64,12 @@ TEST_CASE("Each field of mud, its trawl marks and rock is refused by name") {
 
 TEST_CASE("Each field of blends, layers and areas is refused by name") {
     check_fields<sb::blend>(
-        "blend.", {}, prepared,
+        "blend.", {}, prepare_any,
         {FIELD(coverage, outside(0, 1)), FIELD(patch, outside(0, most)), FIELD(border, outside(1e-3, 12))});
     static_assert(members<sb::patches>() == 2 && members<sb::disc>() == 2 && members<sb::band>() == 2);
     static_assert(members<sb::polygon>() == 1);
-    const auto within = [](const auto& area) { prepared(sb::mixed{.layers = {{.where = area}}}); };
-    check_fields<sb::layer>("layer.", {}, [](const sb::layer& l) { prepared(sb::mixed{.layers = {l}}); },
+    const auto within = [](const auto& area) { prepare_any(sb::mixed{.layers = {{.where = area}}}); };
+    check_fields<sb::layer>("layer.", {}, [](const sb::layer& l) { prepare_any(sb::mixed{.layers = {l}}); },
                             {FIELD(border, outside(1e-3, most)), FIELD(ragged, outside(0, most))});
     check_fields<sb::patches>("patches.", {}, within,
                               {FIELD(coverage, outside(0, 1)), FIELD(size, outside(0.6, most))});
@@ -95,7 +95,7 @@ TEST_CASE("Each field of blends, layers and areas is refused by name") {
 TEST_CASE("Each field of an edit is refused by name") {
     static_assert(members<sb::raise>() == 3 && members<sb::flatten>() == 3 && members<sb::smooth>() == 3);
     static_assert(members<sb::ramp>() == 5 && members<sb::heap>() == 4 && members<sb::moat>() == 6);
-    const auto done = [](const auto& edit) { prepared(sb::sculpted{.edits = {edit}}); };
+    const auto done = [](const auto& edit) { prepare_any(sb::sculpted{.edits = {edit}}); };
     const std::vector<double> height = outside(-most, most), size = outside(0, most);
     check_fields<sb::raise>("raise.", {}, done, {POSITION(centre), FIELD(radius, size), FIELD(height, height)});
     check_fields<sb::flatten>("flatten.", {}, done, {POSITION(centre), FIELD(radius, size), FIELD(level, height)});
@@ -124,8 +124,8 @@ TEST_CASE("Each field of an edit is refused by name") {
 TEST_CASE("Each field of heightfields and grids is refused by name") {
     const sb::heightfield field{.heights = in::image<float>(3, 3)};
     const auto used = [](const sb::heightfield& h) {
-        prepared(h);
-        prepared(sb::detailed{.field = h});
+        prepare_any(h);
+        prepare_any(sb::detailed{.field = h});
         (void)sb::tessellate(h);
     };
     check_fields<sb::heightfield>(

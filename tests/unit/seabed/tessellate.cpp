@@ -11,7 +11,7 @@ namespace in = insonify;
 namespace {
 
 /// z = 0.5 x - 0.25 y over 4 x 3 vertices that are 2 m apart.
-in::seabed::heightfield slope() {
+in::seabed::heightfield tilted() {
     in::seabed::heightfield field{.heights = in::image<float>(4, 3), .spacing = 2};
     for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 4; ++i)
@@ -22,7 +22,7 @@ in::seabed::heightfield slope() {
 }  // namespace
 
 TEST_CASE("A slope is tessellated into its vertices, normals and two upward-facing triangles per cell") {
-    const in::mesh m = in::seabed::tessellate(slope());
+    const in::mesh m = in::seabed::tessellate(tilted());
     REQUIRE(m.positions.size() == 12);
     REQUIRE(m.triangles.size() == 12);
     const float length = 1 / std::sqrt(0.25f + 0.0625f + 1);
@@ -42,7 +42,7 @@ TEST_CASE("A slope is tessellated into its vertices, normals and two upward-faci
 TEST_CASE("A missing vertex removes its triangles and no others") {
     // Cells are cut from vertex (i, j) to (i + 1, j + 1): the ends of a diagonal belong to both triangles.
     const auto triangles_without = [](int i, int j, float value) {
-        in::seabed::heightfield field = slope();
+        in::seabed::heightfield field = tilted();
         field.heights(i, j) = value;
         const in::mesh m = in::seabed::tessellate(field);
         const auto missing = static_cast<std::uint32_t>(4 * j + i);

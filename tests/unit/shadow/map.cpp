@@ -9,15 +9,14 @@
 #include <cmath>
 
 #include "../../catch.hpp"
+#include "lit_mesh.hpp"
 
 namespace in = insonify;
 namespace shadow = insonify::shadow;
 
 namespace {
 
-double radians(double degrees) {
-    return in::numeric::to_radians(degrees);
-}
+using lit::radians;
 
 shadow::height_map map_of(const in::mesh& m, const shadow::light_frame& light, double texel) {
     shadow::height_map map(light, shadow::extent_of(m, {}, light), texel, 16384);

@@ -9,15 +9,14 @@
 #include <cmath>
 
 #include "../../catch.hpp"
+#include "lit_mesh.hpp"
 
 namespace in = insonify;
 namespace shadow = insonify::shadow;
 
 namespace {
 
-double radians(double degrees) {
-    return in::numeric::to_radians(degrees);
-}
+using lit::radians;
 
 struct displacement {
     double mean = 0, largest = 0;

@@ -17,7 +17,7 @@ in::scene mixed_scene() {
     s.add(in::cube{}, {.position = {1, 1, 0.5}}, "cube");
     return s;
 }
-constexpr in::overhead rig{.altitude = 4, .size = {12, 10}, .grazing = 0.4f};
+constexpr in::overhead small_rig{.altitude = 4, .size = {12, 10}, .grazing = 0.4f};
 const in::side_scan sonar{.altitude = 4, .ping_spacing = 0.5f, .pings = 3, .range = 8, .bins = 12};
 
 }  // namespace
@@ -26,7 +26,7 @@ TEST_CASE("render() survives any failed allocation, with each shadow policy") {
     const in::scene s = mixed_scene();
     const auto drawn = [&](const auto& policy) {
         return failing_new::in_turn([&] {
-            const auto frame = in::render(s, rig, in::render_options<>{.cell = 2.3}.with(policy));
+            const auto frame = in::render(s, small_rig, in::render_options<>{.cell = 2.3}.with(policy));
             return std::pair(frame.image, frame.labels.shadow);
         });
     };
@@ -35,7 +35,7 @@ TEST_CASE("render() survives any failed allocation, with each shadow policy") {
     CHECK(drawn(in::shadow::map{}) > 50);
     CHECK(drawn(in::shadow::pcf{}) > 50);
     CHECK(drawn(in::shadow::penumbra{.samples = 2}) > 50);
-    CHECK(failing_new::in_turn([&] { return in::visible_triangles(s, rig).triangle; }) > 20);
+    CHECK(failing_new::in_turn([&] { return in::visible_triangles(s, small_rig).triangle; }) > 20);
 }
 
 TEST_CASE("record() survives any failed allocation, with looks and speckle") {
@@ -52,7 +52,7 @@ TEST_CASE("record() survives any failed allocation, with looks and speckle") {
 TEST_CASE("Drawing on several threads survives any failed allocation, and the pool stays usable") {
     const in::scene s = mixed_scene();
     in::thread_pool pool(3);
-    CHECK(failing_new::in_turn([&] { return in::render(s, rig, {.cell = 2.3}, pool).image; }) > 50);
+    CHECK(failing_new::in_turn([&] { return in::render(s, small_rig, {.cell = 2.3}, pool).image; }) > 50);
     CHECK(failing_new::in_turn([&] { return in::render(s, sonar, in::record_options<>{}, pool).image; }) > 20);
 }
 
@@ -72,7 +72,8 @@ TEST_CASE("Occlusion survives any failed allocation") {
     const in::scene s = mixed_scene();
     const glm::dvec3 at[] = {{0, 0, 1}, {0.9, 0.1, 0.02}};
     CHECK(failing_new::in_turn([&] {
-              const auto built = in::occlusion_of(s, in::light_of(rig), {.box = {{-1, -1, 0}, {1, 1, 1}}, .cell = 0.5});
+              const auto built =
+                  in::occlusion_of(s, in::light_of(small_rig), {.box = {{-1, -1, 0}, {1, 1, 1}}, .cell = 0.5});
               return built.test(at).lit;
           }) > 20);
 }

@@ -35,10 +35,10 @@ double distance(const scenes::triangle& t, const glm::dvec3& from, const glm::dv
     return u >= 0 && v >= 0 && u + v <= 1 ? glm::dot(ac, q) / determinant : no_hit;
 }
 
-class oracle {
+class ray_oracle {
   public:
     /// @param altitude  of a camera over the origin, or over `offset`, that sees 90 degrees
-    oracle(const in::scene& s, int pixels, double altitude = 4, const glm::dvec3& offset = {0, 0, 0})
+    ray_oracle(const in::scene& s, int pixels, double altitude = 4, const glm::dvec3& offset = {0, 0, 0})
         : triangles_(scenes::triangles(s)), pixels_(pixels), altitude_(altitude) {
         for (scenes::triangle& t : triangles_) {
             t.a -= offset;
@@ -128,7 +128,7 @@ scenes::difference compare_all(double spacing, int pixels, bool print) {
     scenes::difference total;
     for (int kind = 0; kind < 3; ++kind) {
         const in::scene s = scenes::make(kind, spacing);
-        const oracle truth(s, pixels);
+        const ray_oracle truth(s, pixels);
         scenes::difference all;
         for (const double elevation : scenes::elevations) {
             scenes::difference here;
@@ -209,7 +209,7 @@ TEST_CASE("Extreme rigs and scenes have correct shadows, pixel by pixel") {
             rig.altitude *= static_cast<float>(e.scale);
             rig.position = glm::dvec2(offset);
             const auto frame = in::render(s, rig, finely_drawn());
-            const oracle truth(s, pixels, static_cast<double>(rig.altitude), offset);
+            const ray_oracle truth(s, pixels, static_cast<double>(rig.altitude), offset);
             const scenes::difference d = truth.compare(frame.labels, in::overhead_geometry(rig).light().to_light());
             INFO(e.name << " over " << scenes::seabed_names[kind] << ": " << d.wrong << " of " << d.pixels);
             CHECK(all_in_range(frame.image));
@@ -226,7 +226,7 @@ TEST_CASE("Light along the faces and edges of a cube and down a slope gives the 
             s.add(in::cube{}, {.position = {-1.5, -1.1, 0}, .pitch = static_cast<float>(in::numeric::pi / 4)}, "roof");
             const in::overhead rig = scenes::rig(azimuth, elevation, 150);
             const auto frame = in::render(s, rig, finely_drawn());
-            const auto d = oracle(s, 150).compare(frame.labels, in::overhead_geometry(rig).light().to_light());
+            const auto d = ray_oracle(s, 150).compare(frame.labels, in::overhead_geometry(rig).light().to_light());
             CAPTURE(azimuth, elevation, d.wrong, d.pixels);
             // Faces parallel to the light up to rounding are dark in the picture; in the oracle rounding decides.
             long grazed = 0;
@@ -267,7 +267,7 @@ TEST_CASE("Near lights have correct shadows: above the seabed, on it, inside of 
     constexpr int pixels = 40;
     for (int kind = 0; kind < 3; ++kind) {
         const in::scene s = scenes::make(kind, 0.3);
-        const oracle truth(s, pixels);
+        const ray_oracle truth(s, pixels);
         struct lamp {
             double azimuth, elevation, distance;
         };

@@ -24,15 +24,15 @@ struct constant_law {
     float operator()(float) const { return 1; }
 };
 
-const in::side_scan rig{.altitude = 5, .ping_spacing = 0.1f, .pings = 8, .range = 50, .bins = 1000};
+const in::side_scan long_rig{.altitude = 5, .ping_spacing = 0.1f, .pings = 8, .range = 50, .bins = 1000};
 
 template <class Equation, class Law = in::lambert_backscatter>
-in::frame<in::no_labels> heard(const in::scene& s, const Equation& equation, const in::side_scan& r = rig,
+in::frame<in::no_labels> heard(const in::scene& s, const Equation& equation, const in::side_scan& r = long_rig,
                                const Law& law = {}) {
     return in::render(s, r, in::record_options<in::no_labels, Law, Equation>{.law = law, .equation = equation});
 }
 
-double range_of(int bin, const in::side_scan& r = rig) {
+double range_of(int bin, const in::side_scan& r = long_rig) {
     return (bin + 0.5) * r.bin();
 }
 double cosine_of(double range) {
@@ -80,7 +80,7 @@ TEST_CASE("Level seabed has constant intensity after level_gain, for any sonar, 
 
 TEST_CASE("Time-varied gain of 40 dB per decade, or 30 with a beam, makes seabed level up to 1 / cos(grazing angle)") {
     const auto check = [](const auto& equation) {
-        const auto picture = heard(level_bottom(), equation, rig, constant_law{});
+        const auto picture = heard(level_bottom(), equation, long_rig, constant_law{});
         const auto profile = [&](int b) { return static_cast<double>(picture.image(b, 4)) * cosine_of(range_of(b)); };
         CHECK(level(110, 1000, profile).second < 0.01);
     };
@@ -139,7 +139,7 @@ TEST_CASE("A horizontal beam blurs over its width at each range and preserves en
     in::scene s = level_bottom(0);
     for (const double x : {10.0, 30.0})
         s.add(in::cube{.size = {0.2f, 0.02f, 0.5f}}, {.position = {x, 2.0, 0.25}}, "post");
-    in::side_scan fine = rig;
+    in::side_scan fine = long_rig;
     fine.ping_spacing = 0.02f;
     fine.pings = 201;
     const in::horizontal_beam beam{.width = 1_deg};
@@ -200,7 +200,7 @@ TEST_CASE("A pulse lengthens echoes by its length and preserves energy") {
     for (const float metres : {0.02f, 0.2f, 0.35f, 1.0f}) {
         const auto [stretched, longer] = sum(heard(s, in::sonar_equation{in::pulse{metres}}));
         CHECK(stretched == Approx(power).epsilon(1e-5));
-        const double more = (std::max)(0.0, static_cast<double>(metres) / rig.bin() - 1);
+        const double more = (std::max)(0.0, static_cast<double>(metres) / long_rig.bin() - 1);
         CHECK(longer - length >= more - 1);
         CHECK(longer - length <= more + 2);
     }
