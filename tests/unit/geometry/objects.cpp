@@ -16,16 +16,15 @@
 #include <insonify/geometry/topology.hpp>
 
 #include <cmath>
-#include <limits>
 
 #include "../../catch.hpp"
+#include "../../not_finite.hpp"
 
 namespace in = insonify;
 
 namespace {
 
 constexpr double pi = in::numeric::pi;
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 double area_of(const in::mesh& m, const glm::uvec3& t) {
     const glm::dvec3 a(m.positions[t.x]), b(m.positions[t.y]), c(m.positions[t.z]);

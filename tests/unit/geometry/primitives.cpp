@@ -9,20 +9,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "../../catch.hpp"
+#include "../../not_finite.hpp"
 
 namespace in = insonify;
 
 namespace {
 
 constexpr double pi = in::numeric::pi;
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 struct measures {
     double area = 0;
@@ -229,7 +228,7 @@ TEST_CASE("segments_for gives the fewest segments within the chord error") {
 }
 
 TEST_CASE("A primitive refuses sizes and segments out of range") {
-    const float bad = GENERATE(0.0f, -1.0f, not_a_number, std::numeric_limits<float>::infinity());
+    const float bad = GENERATE(0.0f, -1.0f, not_a_number, endless);
     CHECK_THROWS_AS(to_mesh(in::cube{.size = {1, bad, 1}}), in::invalid_input);
     CHECK_THROWS_AS(to_mesh(in::cylinder{.radius = bad}), in::invalid_input);
     CHECK_THROWS_AS(to_mesh(in::cylinder{.length = bad}), in::invalid_input);

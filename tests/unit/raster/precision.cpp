@@ -12,7 +12,7 @@ using namespace testing_raster;
 
 namespace {
 
-constexpr int screen_width = 64;  // pixels a side
+constexpr int picture_side = 64;  // pixels a side
 
 /// A triangle in clip space with a varying.
 struct clip_triangle {
@@ -38,14 +38,14 @@ struct errors {
         float largest = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             const glm::dvec4 clip(t.clip[i]);
-            corner[i] = on_screen(clip, screen_width, screen_width);
+            corner[i] = on_screen(clip, picture_side, picture_side);
             z[i] = clip.z / clip.w;
             inverse_w[i] = 1 / static_cast<wide_float>(clip.w);
             largest = (std::max)(largest, std::abs(t.varying[i]));
         }
         const oracle truth(corner, bits);
         const double last_place = static_cast<double>(std::nextafter(largest, 2 * largest) - largest);
-        in::image<float> depth(screen_width, screen_width);
+        in::image<float> depth(picture_side, picture_side);
         in::draw(m, place,
                  [&](const in::fragment<float>& f) {
                      ++samples;
@@ -72,13 +72,13 @@ struct random_triangle {
             return static_cast<double>(low +
                                        static_cast<int>(random.below(static_cast<std::uint32_t>(high - low + 1))));
         };
-        const glm::dvec2 centre(whole(0, screen_width - 1) + 0.5, whole(0, screen_width - 1) + 0.5),
+        const glm::dvec2 centre(whole(0, picture_side - 1) + 0.5, whole(0, picture_side - 1) + 0.5),
             step(whole(-2, 2), whole(-2, 2));
         const double away = in::numeric::pow(longest, random.uniform(0.2, 1));
         const auto on_line = [&] { return centre + std::floor(random.uniform(-away, away)) * step; };
         const glm::dvec2 beside = centre + glm::dvec2(whole(-3, 3) / 256, whole(-3, 3) / 256);
         const auto to_ndc = [](glm::dvec2 p) {
-            return glm::dvec2(p.x / screen_width * 2 - 1, 1 - p.y / screen_width * 2);
+            return glm::dvec2(p.x / picture_side * 2 - 1, 1 - p.y / picture_side * 2);
         };
         return {to_ndc(on_line()), to_ndc(on_line()), to_ndc(beside)};
     }
@@ -137,7 +137,7 @@ TEST_CASE("Ten million depths are the nearest floats", "[.slow]") {
 
 TEST_CASE("The nearer of two surfaces is visible wherever their depths differ as floats") {
     in::random_sequence random(3);
-    in::image<float> depth(screen_width, screen_width);
+    in::image<float> depth(picture_side, picture_side);
     int wrong = 0, contested = 0;
     for (int n = 0; n < 300; ++n) {
         // Two sheets over the whole picture that cross each other under a tiny angle.
@@ -151,12 +151,12 @@ TEST_CASE("The nearer of two surfaces is visible wherever their depths differ as
                 const glm::dvec2 p = outline[i] + glm::dvec2(random.uniform(-5, 5), random.uniform(-5, 5));
                 const double height = 0.4 + 1e-3 * p.x - 5e-4 * p.y + (sheet == 1 ? apart * random.uniform(-1, 1) : 0);
                 m.positions.push_back(glm::vec3(p, height));
-                const glm::vec4 clip = pixel_space{screen_width, screen_width}({m.positions.back(), {}, 0});
-                corner[sheet][i] = on_screen(glm::dvec4(clip), screen_width, screen_width);
+                const glm::vec4 clip = pixel_space{picture_side, picture_side}({m.positions.back(), {}, 0});
+                corner[sheet][i] = on_screen(glm::dvec4(clip), picture_side, picture_side);
                 z[sheet][i] = static_cast<double>(clip.z);
             }
         const oracle first(corner[0], 8), second(corner[1], 8);
-        in::draw(m, pixel_space{screen_width, screen_width},
+        in::draw(m, pixel_space{picture_side, picture_side},
                  [&](const auto& f) {
                      const auto a = static_cast<float>(first.depth(f.x, f.y, z[0]));
                      const auto b = static_cast<float>(second.depth(f.x, f.y, z[1]));

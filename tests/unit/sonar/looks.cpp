@@ -10,16 +10,13 @@
 #include <insonify/sonar/speckle.hpp>
 
 #include <cmath>
-#include <limits>
 
 #include "../../catch.hpp"
+#include "../../not_finite.hpp"
 
 namespace in = insonify;
 
 namespace {
-
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN(),
-                endless = std::numeric_limits<float>::infinity();
 
 float shown(float intensity, const auto& display) {
     return (in::image<float>(1, 1, intensity) | display)(0, 0);

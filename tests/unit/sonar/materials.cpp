@@ -4,12 +4,11 @@
 #include <limits>
 
 #include "../../catch.hpp"
+#include "../../not_finite.hpp"
 
 namespace in = insonify;
 
 namespace {
-
-constexpr float unlimited = std::numeric_limits<float>::infinity();
 
 in::scene cubes() {
     in::scene s;
@@ -34,7 +33,7 @@ void check_refused(const in::scene& s, const std::string& words) {
 }  // namespace
 
 TEST_CASE("A reflectivity that is NaN, infinite or negative is refused by name: of targets, and of every bottom") {
-    for (const float value : {std::numeric_limits<float>::quiet_NaN(), unlimited, -unlimited, -0.5f}) {
+    for (const float value : {not_a_number, endless, -endless, -0.5f}) {
         in::scene s = cubes();
         s.targets[1].surface.reflectivity = value;
         check_refused(s, "scene.targets[1].surface.reflectivity is " + in::detail::to_text(value) + ", expected 0 or");
@@ -63,7 +62,7 @@ TEST_CASE("A pose that is not finite is refused by name, in every way to draw") 
     s.targets[1].placement.position.y = nan;
     check_refused(s, "pose.position.y is nan, expected finite");
     s = cubes();
-    s.targets[0].placement.roll = unlimited;
+    s.targets[0].placement.roll = endless;
     check_refused(s, "pose.roll is inf, expected finite");
     s = cubes();
     s.targets[0].placement.scale = static_cast<float>(nan);
