@@ -25,7 +25,8 @@ sb::heightfield read_raster(const char* path, float scale) {
     const std::unique_ptr<GDALDataset, decltype(close)> file(static_cast<GDALDataset*>(GDALOpen(path, GA_ReadOnly)),
                                                              close);
     double place[6];
-    if (!file || file->GetRasterCount() < 1) throw in::io_error(std::string(path) + ": is no raster that GDAL reads");
+    if (!file || file->GetRasterCount() < 1)
+        throw in::io_error(std::string(path) + ": GDAL cannot read this as a raster");
     if (file->GetGeoTransform(place) != CE_None || place[2] != 0 || place[4] != 0 || place[1] != -place[5])
         throw in::io_error(std::string(path) + ": is not north up with square pixels");
     GDALRasterBand& band = *file->GetRasterBand(1);

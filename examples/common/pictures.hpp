@@ -61,7 +61,7 @@ inline insonify::image<float> parse_gray(std::string_view bytes, const std::stri
     // A BMP stored from the top down has a negative height here, and a header may hold anything.
     const auto columns = static_cast<std::int64_t>(width), rows = std::abs(static_cast<std::int64_t>(height));
     const std::string shape = std::to_string(columns) + " x " + std::to_string(rows) + " pixels";
-    if (columns < 1 || rows < 1) fail(shape + " are no picture");
+    if (columns < 1 || rows < 1) fail(shape + " is not an image size");
     if (static_cast<std::uint64_t>(columns) > limit / 6 / static_cast<std::uint64_t>(rows))
         fail(shape + " are more than " + std::to_string(limit) + " bytes");
     const std::unique_ptr<stbi_us, void (*)(void*)> pixels(

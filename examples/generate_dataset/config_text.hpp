@@ -1,9 +1,13 @@
 // Reader of --config files: lines of `option = value`. Anything else is refused; CLI11 would skip it silently.
 #pragma once
 
+#include <insonify/core/error.hpp>
+
+#include <algorithm>
 #include <sstream>
 #include <string>
 
+#include "../common/input_file.hpp"
 #include <CLI/CLI.hpp>
 
 namespace generator {

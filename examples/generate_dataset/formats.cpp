@@ -5,7 +5,6 @@
 
 #include <bit>
 #include <cstring>
-#include <memory>
 #include <new>
 
 #include "record.hpp"

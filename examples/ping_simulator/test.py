@@ -111,7 +111,7 @@ class Simulator(unittest.TestCase):
         index = statistics.pvariance(bottoms) / statistics.fmean(bottoms) ** 2
         self.assertTrue(0.45 < index < 1, index)
 
-    def test_what_cannot_be_is_refused_with_a_reason(self):
+    def test_invalid_options_are_refused_with_a_reason(self):
         self.assertIn("--out is required", run(expect=2))
 
 

@@ -59,26 +59,26 @@ class Real(unittest.TestCase):
                 for line in report.splitlines() if (cells := [cell.strip() for cell in line.split("|")])[0] == ""
                 and len(cells) > 5 and re.match(r"\d", cells[1])}
 
-    def test_a_set_like_the_real_ones_teaches_what_they_teach(self):
+    def test_similar_generated_images_train_as_well_as_real_ones(self):
         report = self.report("a", "--generated", self.folder / "set")
         rows = self.rows(report)
         self.assertEqual(list(rows), ["0 real and generated", "4 real", "4 real and generated", "12 real", "12 real and generated"])
         self.assertGreater(rows["0 real and generated"][0], 0.97)
         self.assertGreater(rows["0 real and generated"][2], 0.8)  # planes from ships, too
         self.assertGreater(rows["12 real"][0], 0.9)
-        # Nothing tells them from the real ones; other noise does.
+        # Not separable from the real images; with other noise, separable.
         apart = [float(re.search(r"area of (\S+?)\.$", text, re.M)[1])
                  for text in (report, self.report("b", "--generated", self.folder / "rough"))]
         self.assertLess(apart[0], 0.8)
         self.assertGreater(apart[1], 0.95)
 
-    def test_the_same_figures_whatever_the_threads_and_without_a_set(self):
+    def test_the_report_does_not_depend_on_threads_or_on_a_set(self):
         one = self.report("c", "--threads", 1)
         self.assertEqual(one, self.report("d", "--threads", 3))
         self.assertEqual(list(self.rows(one)), ["4 real", "12 real"])
         self.assertNotIn("told apart", one)
 
-    def test_what_cannot_be_is_refused_with_a_reason(self):
+    def test_invalid_options_are_refused_with_a_reason(self):
         self.assertIn("holds no picture", run("--out", self.folder / "e", "--real", self.folder, expect=1))
         self.assertIn("are left to test on", run("--out", self.folder / "e", "--real", self.folder / "real", "--counts", 28, expect=1))
         self.assertIn("is odd", run("--out", self.folder / "e", "--real", self.folder / "real", "--counts", 3, expect=2))

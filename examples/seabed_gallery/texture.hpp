@@ -4,7 +4,6 @@
 #include <insonify/core/image.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>

@@ -2502,7 +2502,8 @@ struct color_table {
     INSONIFY_MEMBER constexpr rgb8 operator()(Value value) const {
         return colors[quantize<std::uint8_t>(value)];
     }
-    INSONIFY_TAGGED void row(const float* from, rgb8* to, int count, int, int) const {
+    template <std::same_as<float> Value>
+    INSONIFY_TAGGED void row(const Value* from, rgb8* to, int count, int, int) const {
         std::uint8_t codes[run_length];
         quantize_row(from, codes, count);
         for (int i = 0; i < count; ++i) to[i] = colors[codes[i]];
@@ -3200,6 +3201,16 @@ float* white_draws(draw_buffer& buffer, const noise_key& noise, std::uint32_t fi
     return buffer + before;
 }
 
+/// Draws of filters whose noise has no correlation length.
+template <class Draws>
+struct independent_draws {
+    noise_key noise;
+
+    const float* row(draw_buffer& buffer, std::uint32_t field, const noise_run& run) const {
+        return white_draws<Draws>(buffer, noise, field, run);
+    }
+};
+
 /// to = clip(rule(clip(from), draw, scale)).
 template <class Rule>
 struct rule_kernel {
@@ -3345,7 +3356,9 @@ enum class echo { amplitude, intensity };
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/filter/detail/correlated.hpp -----------------------------------------------------
-// Correlated normal draws: white noise through a separable filter, row by row.
+// Correlated draws: white noise through a separable filter, row by row.
+
+#include <optional>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -3358,8 +3371,9 @@ inline void require_correlation(const char* name, const correlation_length& leng
     for (const float pixels : {length.x, length.y}) require_range(name, pixels, 0, 16, "0 to 16 pixels");
 }
 
-/// Standard normal draws, one for each pixel and field, correlated along rows and columns. A draw depends on the
-/// pixel's position alone. Consecutive rows reuse the blurred rows that both need.
+/// Draws, one for each pixel and field, correlated along rows and columns. A draw depends on the pixel's position
+/// alone. Consecutive rows reuse the blurred rows that both need.
+template <class Draws>
 class correlated_draws {
   public:
     /// @param x, y  taps of the filters along rows and columns
@@ -3417,7 +3431,7 @@ class correlated_draws {
         dynamic_array<float> white;
         for (int x = run.x - reach; x < run.x + run.count + reach; x += run_length) {
             const int count = (std::min)(run_length, run.x + run.count + reach - x);
-            const float* const draws = white_draws<normal_draws>(buffer, noise_, field, {x, run.y, count, run.channel});
+            const float* const draws = white_draws<Draws>(buffer, noise_, field, {x, run.y, count, run.channel});
             white.append({draws, static_cast<std::size_t>(count)});
         }
         dispatch(taps_along_row{taps_x_, white.data() + reach, 1, into, static_cast<std::size_t>(run.count)},
@@ -3430,6 +3444,36 @@ class correlated_draws {
     std::size_t last_ = 0;
     dynamic_array<const float*> rows_;
 };
+
+/// Draws that are independent until `correlate` is called.
+template <class Draws>
+class field_draws {
+  public:
+    explicit field_draws(noise_key noise) : noise_(noise) {}
+    /// Correlated if the length is not 0.
+    field_draws(noise_key noise, const correlation_length& length) : field_draws(noise) {
+        if (length.x > 0 || length.y > 0)
+            correlate(field_taps(static_cast<double>(length.x)), field_taps(static_cast<double>(length.y)));
+    }
+
+    /// @param x, y  taps of the filters along rows and columns
+    void correlate(dynamic_array<float> x, dynamic_array<float> y) {
+        correlated_.emplace(noise_, std::move(x), std::move(y));
+    }
+    bool is_correlated() const { return correlated_.has_value(); }
+
+    /// The draws of a run; they lie in `buffer`.
+    const float* row(draw_buffer& buffer, std::uint32_t field, const noise_run& run) {
+        if (!correlated_) return white_draws<Draws>(buffer, noise_, field, run);
+        correlated_->row(buffer, field, run);
+        return buffer;
+    }
+
+  private:
+    noise_key noise_;
+    std::optional<correlated_draws<Draws>> correlated_;
+};
+using normal_fields = field_draws<normal_draws>;
 
 }  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
@@ -3613,8 +3657,6 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/filter/detail/echo_law.hpp -------------------------------------------------------
 // Speckle as a noise pass: draws intensities of mean 1 and multiplies pixels by them or by their square roots.
 
-#include <optional>
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
@@ -3655,25 +3697,30 @@ struct echo_factor {
     }
 };
 
-/// How intensities are drawn. It depends on the filter's type and not on its parameters, so that a map of equal numbers
-/// gives the noise of that number.
-enum class echo_draw { exponential, gamma, rice };
+/// How intensities are drawn: `by_looks`, exponential for one look and else gamma. It depends on the filter's type and
+/// not on its maps of parameters, so that a map of equal numbers gives the noise of that number.
+enum class echo_draw { exponential, gamma, by_looks, rice };
 
 /// Statistics of an intensity: the three numbers of a speckle_law, by pixel.
 struct echo_statistics {
-    const char* name;  ///< of the filter's own parameter
-    echo_draw draw;
+    const char* name;       ///< of the filter's own parameter
     parameter looks = 1;    ///< 0.01 to 1e6; 1 unless they are drawn as gamma
     parameter texture = 0;  ///< 0: none
     parameter steady = 0;
 };
 
 /// Law of a noise_pass that multiplies pixels by random intensities, or by their square roots.
+template <echo_draw Draw>
 class echo_law {
   public:
     echo_law(noise_key noise, noise_key texture_noise, echo_statistics statistics, echo of,
              const correlation_length& length)
-        : noise_(noise), texture_noise_(texture_noise), statistics_(std::move(statistics)), of_(of) {
+        : noise_(noise),
+          texture_noise_(texture_noise),
+          fields_(noise),
+          texture_field_(texture_noise),
+          statistics_(std::move(statistics)),
+          of_(of) {
         const parameter &looks = statistics_.looks, &shape = statistics_.texture, &steady = statistics_.steady;
         is_constant_ = looks.is_constant() && shape.is_constant() && steady.is_constant();
         if (is_constant_ && of == echo::amplitude) last_scale_ = scale_of(looks.value(), shape.value(), steady.value());
@@ -3717,48 +3764,47 @@ class echo_law {
             return field_taps(texture_ ? field_length(static_cast<double>(pixels), intensity)
                                        : field_length(static_cast<double>(pixels), speckle));
         };
-        correlated_.emplace(noise_, taps(length.x), taps(length.y));
-        if (texture_) correlated_texture_.emplace(texture_noise_, taps(length.x), taps(length.y));
+        fields_.correlate(taps(length.x), taps(length.y));
+        if (texture_) texture_field_.correlate(taps(length.x), taps(length.y));
     }
 
     /// Intensities of mean one without texture.
     float* draw(draw_buffer& buffer, const noise_run& run) {
-        if (correlated_ || statistics_.draw == echo_draw::rice) {
-            fields(buffer, correlated_ ? static_cast<int>(statistics_.looks.value()) : 1, run);
+        if (Draw == echo_draw::rice || fields_.is_correlated()) {
+            average_looks(buffer, fields_.is_correlated() ? static_cast<int>(statistics_.looks.value()) : 1, run);
             return buffer;
         }
-        if (statistics_.draw == echo_draw::exponential) return white_draws<exponential_draws>(buffer, noise_, 0, run);
-        std::fill_n(buffer, run.count, 1.0f);
-        gamma(buffer, statistics_.looks, noise_, run);
+        if constexpr (Draw == echo_draw::exponential || Draw == echo_draw::by_looks) {
+            if (Draw == echo_draw::exponential || statistics_.looks.value() == 1)
+                return white_draws<exponential_draws>(buffer, noise_, 0, run);
+        }
+        if constexpr (Draw == echo_draw::gamma || Draw == echo_draw::by_looks) {
+            std::fill_n(buffer, run.count, 1.0f);
+            gamma(buffer, statistics_.looks, noise_, run);
+        }
         return buffer;
     }
 
     /// Averages looks of complex normal fields.
-    void fields(float* intensity, int looks, const noise_run& run) {
-        float steady[run_length], re[run_length + 64], im[run_length + 64];
+    void average_looks(float* intensity, int looks, const noise_run& run) {
+        float steady[run_length];
+        draw_buffer buffers[2];
         statistics_.steady.row(steady, run.count, run.x, run.y);
         std::fill_n(intensity, run.count, 0.0f);
         for (int look = 0; look < looks; ++look) {
-            field(re, static_cast<std::uint32_t>(2 * look), run);
-            field(im, static_cast<std::uint32_t>(2 * look + 1), run);
+            const auto field = static_cast<std::uint32_t>(2 * look);
+            const float* const re = fields_.row(buffers[0], field, run);
+            const float* const im = fields_.row(buffers[1], field + 1, run);
             constexpr float root_half = 0.70710678f;
             for (int i = 0; i < run.count; ++i)
                 intensity[i] += look_intensity(re[i] * root_half, im[i] * root_half, steady[i], looks);
         }
     }
-    void field(float (&into)[run_length + 64], std::uint32_t number, const noise_run& run) {
-        if (correlated_) {
-            correlated_->row(into, number, run);
-        } else {
-            const float* const draws = white_draws<normal_draws>(into, noise_, number, run);
-            std::copy(draws, draws + run.count, static_cast<float*>(into));
-        }
-    }
 
     void texture(float* intensity, const noise_run& run) {
         if (texture_) {
-            float normal[run_length + 64];
-            correlated_texture_->row(normal, 0, run);
+            draw_buffer buffer;
+            const float* const normal = texture_field_.row(buffer, 0, run);
             for (int i = 0; i < run.count; ++i) intensity[i] *= (*texture_)(normal[i]);
             return;
         }
@@ -3784,8 +3830,8 @@ class echo_law {
 
     /// 1 over the mean amplitude of a unit intensity.
     float scale_of(float looks, float shape, float steady) const {
-        const double speckle = statistics_.draw == echo_draw::rice ? mean_of_rice(static_cast<double>(steady))
-                                                                   : mean_root_of_gamma(static_cast<double>(looks));
+        const double speckle = Draw == echo_draw::rice ? mean_of_rice(static_cast<double>(steady))
+                                                       : mean_root_of_gamma(static_cast<double>(looks));
         const double relief = shape > 0 ? mean_root_of_gamma(static_cast<double>(shape)) : 1;
         return static_cast<float>(1 / (speckle * relief));
     }
@@ -3805,9 +3851,9 @@ class echo_law {
     }
 
     noise_key noise_, texture_noise_;
+    normal_fields fields_, texture_field_;  ///< of Rician and of correlated speckle
     echo_statistics statistics_;
     echo of_;
-    std::optional<correlated_draws> correlated_, correlated_texture_;
     std::optional<gamma_texture> texture_;  ///< where it is correlated
     bool is_constant_ = false;
     std::array<float, 3> last_{-1, -1, -1};
@@ -3815,10 +3861,11 @@ class echo_law {
     float scale_[run_length];
 };
 
-inline noise_pass<echo_law> echo_pass(noise_stream stream, std::uint64_t seed, std::uint32_t frame,
-                                      echo_statistics statistics, echo of, const correlation_length& length) {
+template <echo_draw Draw>
+noise_pass<echo_law<Draw>> echo_pass(noise_stream stream, std::uint64_t seed, std::uint32_t frame,
+                                     echo_statistics statistics, echo of, const correlation_length& length) {
     return noise_pass(
-        echo_law({seed, stream, frame}, {seed, noise_stream::texture, frame}, std::move(statistics), of, length));
+        echo_law<Draw>({seed, stream, frame}, {seed, noise_stream::texture, frame}, std::move(statistics), of, length));
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -3863,8 +3910,8 @@ struct rayleigh {
     /// @throws invalid_input for a correlation length outside 0 to 16
     INSONIFY_MEMBER auto pass() const {
         detail::require_correlation("rayleigh.correlation", correlation);
-        return detail::echo_pass(detail::noise_stream::rayleigh, seed, frame,
-                                 {"rayleigh", detail::echo_draw::exponential}, of, correlation);
+        return detail::echo_pass<detail::echo_draw::exponential>(detail::noise_stream::rayleigh, seed, frame,
+                                                                 {"rayleigh"}, of, correlation);
     }
 };
 
@@ -3883,8 +3930,8 @@ struct gamma_speckle {
     INSONIFY_TAGGED auto pass() const {
         detail::check_shape("gamma_speckle.looks", looks);
         detail::require_correlation("gamma_speckle.correlation", correlation);
-        return detail::echo_pass(detail::noise_stream::gamma_speckle, seed, frame,
-                                 {"gamma_speckle.looks", detail::echo_draw::gamma, looks}, of, correlation);
+        return detail::echo_pass<detail::echo_draw::gamma>(detail::noise_stream::gamma_speckle, seed, frame,
+                                                           {"gamma_speckle.looks", looks}, of, correlation);
     }
 };
 
@@ -3909,10 +3956,8 @@ struct k_speckle {
         detail::check_shape("k_speckle.shape", shape);
         detail::check_shape("k_speckle.looks", looks);
         detail::require_correlation("k_speckle.correlation", correlation);
-        return detail::echo_pass(
-            detail::noise_stream::k_speckle, seed, frame,
-            {"k_speckle.shape", looks == 1 ? detail::echo_draw::exponential : detail::echo_draw::gamma, looks, shape},
-            of, correlation);
+        return detail::echo_pass<detail::echo_draw::by_looks>(detail::noise_stream::k_speckle, seed, frame,
+                                                              {"k_speckle.shape", looks, shape}, of, correlation);
     }
 };
 
@@ -3934,8 +3979,8 @@ struct rician {
         steady.check(
             "rician.steady", [](float v) { return v >= 0 && v <= 1e6f; }, "0 to 1e6");
         detail::require_correlation("rician.correlation", correlation);
-        return detail::echo_pass(detail::noise_stream::rician, seed, frame,
-                                 {"rician.steady", detail::echo_draw::rice, 1, 0, steady}, of, correlation);
+        return detail::echo_pass<detail::echo_draw::rice>(detail::noise_stream::rician, seed, frame,
+                                                          {"rician.steady", 1, 0, steady}, of, correlation);
     }
 };
 
@@ -4129,7 +4174,8 @@ std::vector<std::uint64_t> count_bands(image_view<const Pixel> source, int bins,
     const auto width = static_cast<std::size_t>((std::max)(source.width(), 1));
     const std::size_t max_rows = (std::size_t{1} << 31) / width, min_rows = counter::min_pixels / width + 1;
     const std::size_t grain = (std::max)((std::min)(rows / 16 + 1, max_rows), min_rows);
-    dynamic_array<dynamic_array<std::uint64_t>> bands((rows + grain - 1) / grain);
+    const auto size = static_cast<std::size_t>(bins);
+    dynamic_array<std::uint64_t> bands((rows + grain - 1) / grain * size);
     bulk_ranges(ex, rows, grain, [&](std::size_t first, std::size_t last) {
         counter own = make();
         for (std::size_t y = first; y < last; ++y) {
@@ -4137,13 +4183,11 @@ std::vector<std::uint64_t> count_bands(image_view<const Pixel> source, int bins,
             for (int x = 0; x < source.width(); x += run_length)
                 own.add(row.data() + x, (std::min)(run_length, source.width() - x));
         }
-        dynamic_array<std::uint64_t>& band = bands[first / grain];
-        band.resize(static_cast<std::size_t>(bins));
-        own.add_to(band);
+        own.add_to({bands.data() + first / grain * size, size});
     });
-    std::vector<std::uint64_t> sums(static_cast<std::size_t>(bins));
-    for (const dynamic_array<std::uint64_t>& band : bands)
-        for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += band[i];
+    std::vector<std::uint64_t> sums(size);
+    for (std::size_t band = 0; band < bands.size(); band += size)
+        for (std::size_t i = 0; i < size; ++i) sums[i] += bands[band + i];
     return sums;
 }
 
@@ -4703,33 +4747,20 @@ struct multiplied_draw {
 template <class Draws, class Rule>
 class scaled_law {
   public:
-    scaled_law(Rule rule, noise_key noise, deviation scale) : rule_(rule), noise_(noise), scale_(std::move(scale)) {}
-
-    /// With correlated draws.
-    scaled_law(Rule rule, noise_key noise, deviation scale, const correlation_length& length)
-        : scaled_law(rule, noise, std::move(scale)) {
-        if (length.x > 0 || length.y > 0)
-            correlated_.emplace(noise, field_taps(static_cast<double>(length.x)),
-                                field_taps(static_cast<double>(length.y)));
-    }
+    /// @param draws  independent_draws or field_draws
+    scaled_law(Rule rule, Draws draws, deviation scale)
+        : rule_(rule), draws_(std::move(draws)), scale_(std::move(scale)) {}
 
     void row(const float* from, float* to, const noise_run& run) {
-        const float* const scale = scale_.row(run);
         draw_buffer buffer;
-        const float* draws = buffer;
-        if (correlated_)
-            correlated_->row(buffer, 0, run);
-        else
-            draws = white_draws<Draws>(buffer, noise_, 0, run);
-        apply_rule(rule_, from, draws, scale, to, run.count);
+        apply_rule(rule_, from, draws_.row(buffer, 0, run), scale_.row(run), to, run.count);
     }
     void prepare(const pixel_area& area) { scale_.prepare(area); }
 
   private:
     Rule rule_;
-    noise_key noise_;
+    Draws draws_;
     deviation scale_;
-    std::optional<correlated_draws> correlated_;
 };
 
 /// Replaces a pixel where p, uniform in (0, 1], is below the density: by black below half the density, else by white.
@@ -4780,8 +4811,8 @@ struct gaussian {
         detail::require(numeric::is_finite(mean), "gaussian.mean", mean, "finite");
         detail::check_variance("gaussian.variance", variance);
         detail::require_correlation("gaussian.correlation", correlation);
-        return detail::noise_pass(detail::scaled_law<detail::normal_draws, detail::added_draw>(
-            {mean}, {seed, detail::noise_stream::gaussian, frame}, {"gaussian.variance", variance, 1}, correlation));
+        return detail::noise_pass(detail::scaled_law<detail::normal_fields, detail::added_draw>(
+            {mean}, {{seed, detail::noise_stream::gaussian, frame}, correlation}, {"gaussian.variance", variance, 1}));
     }
 };
 
@@ -4798,8 +4829,9 @@ struct speckle {
     ///         than the image
     INSONIFY_MEMBER auto pass() const {
         detail::check_variance("speckle.variance", variance);
-        return detail::noise_pass(detail::scaled_law<detail::symmetric_draws, detail::multiplied_draw>(
-            {}, {seed, detail::noise_stream::speckle, frame}, {"speckle.variance", variance, 3}));
+        using draws = detail::independent_draws<detail::symmetric_draws>;
+        return detail::noise_pass(detail::scaled_law<draws, detail::multiplied_draw>(
+            {}, {{seed, detail::noise_stream::speckle, frame}}, {"speckle.variance", variance, 3}));
     }
 };
 
@@ -4817,9 +4849,9 @@ struct gaussian_speckle {
     INSONIFY_TAGGED auto pass() const {
         detail::check_variance("gaussian_speckle.variance", variance);
         detail::require_correlation("gaussian_speckle.correlation", correlation);
-        return detail::noise_pass(detail::scaled_law<detail::normal_draws, detail::multiplied_draw>(
-            {}, {seed, detail::noise_stream::gaussian_speckle, frame}, {"gaussian_speckle.variance", variance, 1},
-            correlation));
+        return detail::noise_pass(detail::scaled_law<detail::normal_fields, detail::multiplied_draw>(
+            {}, {{seed, detail::noise_stream::gaussian_speckle, frame}, correlation},
+            {"gaussian_speckle.variance", variance, 1}));
     }
 };
 
@@ -5090,8 +5122,8 @@ INSONIFY_ARITHMETIC_END
 // Adjacent point-wise stages run as one pass over the image. A measured stage reads the finished image of the stages
 // before it and starts the next pass (filter/concept.hpp defines both kinds).
 //
-// Lambdas and users' classes are filters as they are. One side of `f | g` must declare `is_filter`, as the library's
-// filters do, or be a chain; `filter_chain<>{} | f | g` composes others.
+// Lambdas and users' classes are filters as they are. One side of `f | g` must be a filter or a chain of the library,
+// since the operator is looked up in its namespace; `filter_chain<>{} | f | g` composes two of a user's own.
 
 #include <tuple>
 
@@ -5773,6 +5805,7 @@ inline int segments_for(float radius, float chord_error) {
 
 namespace detail::inline INSONIFY_FLAGS {
 
+#if INSONIFY_BODIES
 /// Appends an arc of a circle centred on the axis, `steps` + 1 points from `first` to `last`: turns, counted from the
 /// lowest point (0) over the equator (1/4) to the highest (1/2).
 inline void append_arc(dynamic_array<outline_point>& outline, double radius, double centre, double first, double last,
@@ -5787,6 +5820,7 @@ inline void append_arc(dynamic_array<outline_point>& outline, double radius, dou
 inline void require_round_segments(const char* name, int segments) {
     require(segments >= 3 && segments <= 8192, name, segments, "3 to 8192");
 }
+#endif
 
 /// Distance from the centre of a unit ball of `segments` by `rings` to the nearest of its faces, which is at the
 /// equator. Faces are trapezia, hence plane.
@@ -5907,12 +5941,15 @@ struct cone {
     int segments = 64;     ///< around the axis, 3 to 2^20; see `segments_for`
 };
 
-inline namespace INSONIFY_FLAGS {
+inline namespace INSONIFY_ONCE {
 
 /// The rims (and the tip) have vertices of their own for each side's normal.
 /// @throws invalid_input for a radius or height that is not finite and positive, a top radius that is not finite or
 ///         negative, or segments outside 3 to 2^20
-inline mesh to_mesh(const cone& shape) {
+INSONIFY_FUNCTION mesh to_mesh(const cone& shape);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION mesh to_mesh(const cone& shape) {
     detail::require_positive("cone.radius", shape.radius);
     detail::require_positive("cone.height", shape.height);
     detail::require(numeric::is_finite(shape.top_radius) && shape.top_radius >= 0, "cone.top_radius", shape.top_radius,
@@ -5935,6 +5972,11 @@ inline mesh to_mesh(const cone& shape) {
     }
     return revolve(outline, shape.segments);
 }
+#endif
+
+}  // namespace INSONIFY_ONCE
+
+inline namespace INSONIFY_FLAGS {
 
 /// Fewest segments with which the wider rim, and with it the side, deviates from its circle by at most `deviation`.
 /// See `segments_for(radius, chord_error)`.
@@ -5963,11 +6005,14 @@ struct cube {
     glm::vec3 size{1};  ///< edge lengths, metres
 };
 
-inline namespace INSONIFY_FLAGS {
+inline namespace INSONIFY_ONCE {
 
 /// 24 vertices (each corner three times, once for each face's normal) and 12 triangles.
 /// @throws invalid_input for a size that is not finite and positive
-inline mesh to_mesh(const cube& shape) {
+INSONIFY_FUNCTION mesh to_mesh(const cube& shape);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION mesh to_mesh(const cube& shape) {
     mesh out;
     for (int along = 0; along < 3; ++along) {
         detail::require_positive("cube.size", shape.size[along]);
@@ -5990,9 +6035,9 @@ inline mesh to_mesh(const cube& shape) {
     }
     return out;
 }
+#endif
 
-}  // namespace INSONIFY_FLAGS
-
+}  // namespace INSONIFY_ONCE
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -6020,11 +6065,18 @@ struct capsule {
     int segments = 64;    ///< around the axis, 3 to 8192; half as many rings over both ends
 };
 
-inline namespace INSONIFY_FLAGS {
+inline namespace INSONIFY_ONCE {
 
 /// 4 segments + 2 vertices, of which the rims have two sets, one for each normal.
 /// @throws invalid_input for a radius or length that is not finite and positive, or segments outside 3 to 2^20
-inline mesh to_mesh(const cylinder& shape) {
+INSONIFY_FUNCTION mesh to_mesh(const cylinder& shape);
+
+/// @throws invalid_input for a radius that is not finite and positive, a length that is not finite or below 2 radius,
+///         or segments outside 3 to 8192
+INSONIFY_FUNCTION mesh to_mesh(const capsule& shape);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION mesh to_mesh(const cylinder& shape) {
     detail::require_positive("cylinder.radius", shape.radius);
     detail::require_positive("cylinder.length", shape.length);
     const auto radius = static_cast<double>(shape.radius);
@@ -6038,9 +6090,7 @@ inline mesh to_mesh(const cylinder& shape) {
     return revolve(outline, shape.segments, axis::x);
 }
 
-/// @throws invalid_input for a radius that is not finite and positive, a length that is not finite or below 2 radius,
-///         or segments outside 3 to 8192
-inline mesh to_mesh(const capsule& shape) {
+INSONIFY_FUNCTION mesh to_mesh(const capsule& shape) {
     detail::require_positive("capsule.radius", shape.radius);
     detail::require(numeric::is_finite(shape.length) && shape.length >= 2 * shape.radius, "capsule.length",
                     shape.length, "finite and at least twice the radius");
@@ -6053,6 +6103,11 @@ inline mesh to_mesh(const capsule& shape) {
     detail::append_arc(outline, radius, straight, 0.25, 0.5, steps);
     return revolve(outline, shape.segments, axis::x);
 }
+#endif
+
+}  // namespace INSONIFY_ONCE
+
+inline namespace INSONIFY_FLAGS {
 
 /// Fewest segments with which no point of the shape is farther than `deviation` from the mesh's surface, whatever the
 /// shape's own `segments`; see `segments_for(radius, chord_error)`.
@@ -6518,6 +6573,13 @@ INSONIFY_ARITHMETIC_END
 // Detects meshes that are a heightfield over a regular grid, as seabeds mostly are. The mesh itself is inspected, so
 // that callers need no flag and a wrong flag cannot change a result.
 
+#if INSONIFY_BODIES
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#endif
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
@@ -6534,6 +6596,7 @@ struct regular_grid {
     double off = 0x1p-12;  ///< bound of the distance of vertices from the lattice, in steps
 };
 
+#if INSONIFY_BODIES
 namespace detail::inline INSONIFY_FLAGS {
 
 /// Compares the triangles of a row of cells with those of one cell, moved by a vertex from cell to cell.
@@ -6612,17 +6675,17 @@ struct cell_cut {
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
+#endif
 
-inline namespace INSONIFY_FLAGS {
+namespace detail::inline INSONIFY_ONCE {
 
-/// The regular grid of a mesh's vertices; none if they are not on one, or a height is not finite.
-/// @param off  distance from the lattice up to which vertices are accepted, in steps; `regular_grid::off` of the result
-///             bounds the actual distance
-template <executor_argument E = serial_executor>
-std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, double off = 1.0 / 256) {
+INSONIFY_FUNCTION std::optional<regular_grid> find_regular_grid(const mesh_view& m, executor_ref ex, double off);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION std::optional<regular_grid> find_regular_grid(const mesh_view& m, executor_ref ex, double off) {
     if (m.triangles.size() < 2) return std::nullopt;
     const glm::uvec3 cell[2] = {m.triangles[0], m.triangles[1]};
-    const auto cut = detail::cell_cut::of(cell);
+    const auto cut = cell_cut::of(cell);
     if (!cut) return std::nullopt;
     const std::size_t columns = cut->columns, rows = m.positions.size() / columns;
     if (rows < 2 || columns > 1 << 20 || rows > 1 << 20 || rows * columns != m.positions.size() ||
@@ -6643,7 +6706,7 @@ std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, dou
 
     std::atomic<bool> differs = false;
     constexpr std::size_t grain = 16;
-    detail::dynamic_array<double> farthest((rows + grain - 1) / grain, 0);  // squared, of the vertices of some rows
+    dynamic_array<double> farthest((rows + grain - 1) / grain, 0);  // squared, of the vertices of some rows
     bulk_ranges(ex, rows, grain, [&](std::size_t first, std::size_t last) {
         for (std::size_t j = first; j < last && !differs; ++j) {
             const glm::dvec2 start = grid.origin + static_cast<double>(j) * grid.up;
@@ -6656,15 +6719,27 @@ std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, dou
             }
             if (j + 1 == rows) continue;
             const auto corner = static_cast<std::uint32_t>(j * columns);
-            std::uint32_t vertices[detail::cell_row_kernel::indices];
-            for (int i = 0; i < detail::cell_row_kernel::indices; ++i) vertices[i] = cell[i / 3][i % 3] + corner;
-            dispatch(detail::cell_row_kernel{&m.triangles[j * 2 * (columns - 1)], columns - 1, vertices, differs},
-                     best_isa());
+            std::uint32_t vertices[cell_row_kernel::indices];
+            for (int i = 0; i < cell_row_kernel::indices; ++i) vertices[i] = cell[i / 3][i % 3] + corner;
+            dispatch(cell_row_kernel{&m.triangles[j * 2 * (columns - 1)], columns - 1, vertices, differs}, best_isa());
         }
     });
     if (differs) return std::nullopt;
     grid.off = numeric::square_root(*std::max_element(farthest.begin(), farthest.end())) / step;
     return grid;
+}
+#endif
+
+}  // namespace detail::inline INSONIFY_ONCE
+
+inline namespace INSONIFY_FLAGS {
+
+/// The regular grid of a mesh's vertices; none if they are not on one, or a height is not finite.
+/// @param off  distance from the lattice up to which vertices are accepted, in steps; `regular_grid::off` of the result
+///             bounds the actual distance
+template <executor_argument E = serial_executor>
+std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, double off = 1.0 / 256) {
+    return detail::find_regular_grid(m, ex, off);
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -7051,6 +7126,7 @@ float longest_semi_axis(const Round& shape) {
     return shape.radius * (std::max)((std::max)(shape.aspect.x, shape.aspect.y), shape.aspect.z);
 }
 
+#if INSONIFY_BODIES
 /// Turns an outline about z and stretches the result with its normals.
 inline mesh stretched_round(const dynamic_array<outline_point>& outline, const char* name, const glm::vec3& aspect,
                             int segments) {
@@ -7063,14 +7139,21 @@ inline mesh stretched_round(const dynamic_array<outline_point>& outline, const c
     }
     return transformed(std::move(out), stretch);
 }
+#endif
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-inline namespace INSONIFY_FLAGS {
+inline namespace INSONIFY_ONCE {
 
 /// Closed by index: every vertex is shared, and the poles are one vertex each.
 /// @throws invalid_input for a radius or aspect that is not finite and positive, or segments outside 3 to 8192
-inline mesh to_mesh(const sphere& shape) {
+INSONIFY_FUNCTION mesh to_mesh(const sphere& shape);
+
+/// @throws invalid_input for a radius or aspect that is not finite and positive, or segments outside 3 to 8192
+INSONIFY_FUNCTION mesh to_mesh(const hemisphere& shape);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION mesh to_mesh(const sphere& shape) {
     detail::require_positive("sphere.radius", shape.radius);
     detail::require_round_segments("sphere.segments", shape.segments);
     detail::dynamic_array<outline_point> outline;
@@ -7078,8 +7161,7 @@ inline mesh to_mesh(const sphere& shape) {
     return detail::stretched_round(outline, "sphere.aspect", shape.aspect, shape.segments);
 }
 
-/// @throws invalid_input for a radius or aspect that is not finite and positive, or segments outside 3 to 8192
-inline mesh to_mesh(const hemisphere& shape) {
+INSONIFY_FUNCTION mesh to_mesh(const hemisphere& shape) {
     detail::require_positive("hemisphere.radius", shape.radius);
     detail::require_round_segments("hemisphere.segments", shape.segments);
     const auto radius = static_cast<double>(shape.radius);
@@ -7087,6 +7169,11 @@ inline mesh to_mesh(const hemisphere& shape) {
     detail::append_arc(outline, radius, 0.0, 0.25, 0.5, (shape.segments + 3) / 4);
     return detail::stretched_round(outline, "hemisphere.aspect", shape.aspect, shape.segments);
 }
+#endif
+
+}  // namespace INSONIFY_ONCE
+
+inline namespace INSONIFY_FLAGS {
 
 /// Fewest segments with which no point of the shape is farther than `deviation` from the mesh's surface, whatever the
 /// shape's own `segments`. A stretched one counts as a ball of its longest semi-axis.
@@ -7622,10 +7709,10 @@ template <depth_precision Depth = depth_precision::exact>
 struct draw_options {
     cull_mode cull = cull_mode::none;
     keep_depth keep = keep_depth::smaller;
-    depth_load load = depth_load::keep;
-    int subpixel_bits = 8;   ///< 4 to 16: vertices are rounded to 2^-bits pixels
-    int tile = 64;           ///< pixels, a power of two from 8 to 256
-    isa level = best_isa();  ///< the widest instruction set to use
+    depth_load load = depth_load::keep;  ///< a new image is full of 0, the nearest depth of `smaller`: clear it
+    int subpixel_bits = 8;               ///< 4 to 16: vertices are rounded to 2^-bits pixels
+    int tile = 64;                       ///< pixels, a power of two from 8 to 256
+    isa level = best_isa();              ///< the widest instruction set to use
 };
 
 /// What happened to the triangles of a draw. Each of `triangles` is counted once among drawn, culled, missed,
@@ -7869,9 +7956,9 @@ INSONIFY_ARITHMETIC_END
 //     };
 //
 // `kind` is one of the library's labels or a label with properties. Seabeds of several labels write them in
-// `row(line, heights, types)` and list them in `legend()`. Where parts are worth computing once (wave vectors,
-// octaves), `prepare()` returns a sampler that has `row` and `range` in the model's stead. Optional: `sink_depth()`,
-// see there.
+// `row(line, heights, types)`, where `types` may be empty, and list them in `legend()`. Where parts are worth computing
+// once (wave vectors, octaves), `prepare()` returns a sampler that has `row` and `range` in the model's stead.
+// Optional: `sink_depth()`, see there.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -8022,7 +8109,7 @@ struct with_kind {
 /// @throws invalid_input for a range with an infinite end, as of a model that does not state its heights
 inline void require_finite(const height_range& range) {
     require(range.empty() || numeric::is_finite(range.highest - range.lowest), "range() of the seabed", range.highest,
-            "finite heights that it never leaves");
+            "finite heights that it never leaves (a model without `range()` states none)");
 }
 
 template <class S>
@@ -8220,7 +8307,10 @@ any_sampler hold_sampler(S sampler, std::shared_ptr<const void> owner = nullptr)
         std::shared_ptr<const void> owner;
     };
     const height_range range = range_of(sampler);
-    return {std::shared_ptr<const void>(new held{std::move(sampler), std::move(owner)}),
+    // With a function as deleter, all samplers share one type of control block.
+    const void* const made = new held{std::move(sampler), std::move(owner)};
+    return {std::shared_ptr<const void>(
+                made, +[](const void* to) { delete static_cast<const held*>(to); }),
             [](const void* from, const scanline& line, std::span<float> heights, std::span<type> types) {
                 static_cast<const held*>(from)->sampler.row(line, heights, types);
             },
@@ -8264,7 +8354,7 @@ template <class M>
 concept sampled = requires(const M& m) {
     sampler_of(m);
 };
-/// Was meant to be a model.
+/// A type with a part of the members of a model, which gets a readable error.
 template <class M>
 concept incomplete_model = !model<M> && (labelled<M> || sampled<M>);
 
@@ -9348,7 +9438,7 @@ class ripple_train {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/detail/trawls.hpp ---------------------------------------------------------
-// Furrows of trawl boards: long, nearly straight, in a few directions.
+// Furrows of trawl doors: long, nearly straight, in a few directions.
 //
 // Furrows of one direction run in parallel, slightly meandering strips. A strip holds one furrow with gaps along it.
 // The spoil lies in a low berm on either side.
@@ -10169,7 +10259,7 @@ struct points {
     std::span<const double> x, y, z;          ///< metres
     std::span<const std::uint32_t> mesh;      ///< index of the caster that a point lies on, or invalid_id
     std::span<const std::uint32_t> triangle;  ///< of that caster; it does not block its own points
-    std::uint32_t casters = invalid_id;       ///< only casters with a lower index are tested
+    std::uint32_t casters = invalid_id;       ///< a test may skip casters from this index on
     bool face_light = true;                   ///< facets of the points face the light; if not, `lit` is ignored
 
     INSONIFY_MEMBER std::size_t size() const { return x.size(); }
@@ -10522,7 +10612,8 @@ using seabed::sediment;
 inline namespace INSONIFY_FLAGS {
 
 /// The backscattering strength of a sediment at normal incidence by Lambert's law, as a factor. Use with
-/// `lambert_backscatter` to compute levels.
+/// `lambert_backscatter` to compute levels. This is absolute; `scene.bottom` and `type_properties` are relative to a
+/// bright target: there medium sand, 0.032 here, has 0.45, `properties_of(type_of(s)).reflectivity`.
 constexpr material surface_of(sediment s) {
     return {seabed::facts_of(s).strength_at_nadir()};
 }
@@ -10576,7 +10667,8 @@ struct scene {
     /// Adds a mesh, a shared mesh, or a shape with a `to_mesh`: cube, cylinder, cone, sphere, your own. Instances are
     /// numbered from 1. A mesh without normals gets smooth ones, also across sharp edges whose triangles share
     /// vertices; `with_creases` keeps those sharp. To draw one mesh many times, make a `shared_mesh` once and add it
-    /// repeatedly.
+    /// repeatedly. Renderers take up to 65534 targets.
+    /// @returns the target; the next call may move it
     /// @throws invalid_input for a mesh whose indices or normals don't match its positions
     template <class Shape>
     INSONIFY_MEMBER target& add(Shape&& shape, const pose& placement, std::string class_name,
@@ -10594,11 +10686,23 @@ struct scene {
     }
 };
 
-inline namespace INSONIFY_FLAGS {
+inline namespace INSONIFY_ONCE {
 
 /// @throws invalid_input for a material whose reflectivity is negative or not finite. Renderers check poses, meshes and
 ///         seabeds
-inline void validate(const scene& s) {
+INSONIFY_FUNCTION void validate(const scene& s);
+
+/// The material of each label: the scene's, or that of the seabed's model where the scene sets none.
+/// @throws invalid_input for a reflectivity of the seabed that is negative or not finite
+INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s);
+
+/// The same pose, lowered or raised so that one vertex touches the seabed and none is below it. `burial` then sinks it.
+/// @param shape  a mesh, a shared mesh, or a view of one; of at least one position
+/// @throws invalid_input for a shape without positions, or a pose out of range
+INSONIFY_FUNCTION pose rest_on(const insonify::seabed::any& seabed, const mesh_view& shape, pose placement);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION void validate(const scene& s) {
     const auto check = [](const material& m, const char* list, std::size_t i, const char* member) {
         if (m.reflectivity >= 0 && numeric::is_finite(m.reflectivity)) return;
         std::string name = list;  // appended, because g++ 12 warns of "[" + to_text(i) at -O3
@@ -10613,9 +10717,7 @@ inline void validate(const scene& s) {
         check(s.targets[i].surface, "scene.targets", i, "].surface.reflectivity");
 }
 
-/// The material of each label: the scene's, or that of the seabed's model where the scene sets none.
-/// @throws invalid_input for a reflectivity of the seabed that is negative or not finite
-inline bottom_materials resolved_bottom(const scene& s) {
+INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s) {
     bottom_materials all = s.bottom;
     for (const insonify::seabed::type_properties& t : s.seabed.legend()) {
         detail::require(t.reflectivity >= 0 && numeric::is_finite(t.reflectivity), "type_properties.reflectivity",
@@ -10629,10 +10731,7 @@ inline bottom_materials resolved_bottom(const scene& s) {
     return all;
 }
 
-/// The same pose, lowered or raised so that one vertex touches the seabed and none is below it. `burial` then sinks it.
-/// @param shape  of at least one position
-/// @throws invalid_input for a shape without positions, or a pose out of range
-inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose placement) {
+INSONIFY_FUNCTION pose rest_on(const insonify::seabed::any& seabed, const mesh_view& shape, pose placement) {
     detail::require(!shape.positions.empty(), "shape.positions.size()", shape.positions.size(), "at least 1");
     detail::require_finite("pose.burial", placement.burial);
     pose bare = placement;
@@ -10648,8 +10747,9 @@ inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose
     if (numeric::is_finite(clearance)) placement.position.z -= clearance;
     return placement;
 }
+#endif
 
-}  // namespace INSONIFY_FLAGS
+}  // namespace INSONIFY_ONCE
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -10705,25 +10805,17 @@ struct labels {
     }
 };
 
+namespace detail::inline INSONIFY_FLAGS {
+
+/// @throws invalid_input for more targets than labels can number
+inline void require_numbered_targets(const scene& s) {
+    require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
 /// Requests no labels: none are stored or computed.
 struct no_labels {};
-
-inline namespace INSONIFY_FLAGS {
-
-/// 255 where a target is visible, 0 elsewhere.
-inline image<std::uint8_t> target_mask(const labels& l, std::uint16_t instance) {
-    return map_pixels(l.instance, [=](std::uint16_t i) { return static_cast<std::uint8_t>(i == instance ? 255 : 0); });
-}
-
-/// 255 where the seabed is in a target's shadow, 0 elsewhere, on the target itself too.
-inline image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance) {
-    image<std::uint8_t> mask(l.shadow.width(), l.shadow.height());
-    for (std::size_t i = 0; i < mask.size(); ++i)
-        mask.pixels()[i] = l.shadow.pixels()[i] == instance && l.instance.pixels()[i] == labels::no_instance ? 255 : 0;
-    return mask;
-}
-
-}  // namespace INSONIFY_FLAGS
 
 /// The class of every pixel.
 struct class_map {
@@ -10731,10 +10823,33 @@ struct class_map {
     image<std::uint16_t> classes;    ///< 0 for no target, 1 for names[0], ...
 };
 
-inline namespace INSONIFY_FLAGS {
+inline namespace INSONIFY_ONCE {
+
+/// 255 where a target is visible, 0 elsewhere.
+INSONIFY_FUNCTION image<std::uint8_t> target_mask(const labels& l, std::uint16_t instance);
+
+/// 255 where the seabed is in a target's shadow, 0 elsewhere, on the target itself too.
+INSONIFY_FUNCTION image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance);
 
 /// The class of every pixel that shows a target.
-inline class_map classes_of(const labels& l) {
+INSONIFY_FUNCTION class_map classes_of(const labels& l);
+
+/// Sets the bounding boxes and areas of the listed targets from the images.
+INSONIFY_FUNCTION void measure_targets(labels& l);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION image<std::uint8_t> target_mask(const labels& l, std::uint16_t instance) {
+    return map_pixels(l.instance, [=](std::uint16_t i) { return static_cast<std::uint8_t>(i == instance ? 255 : 0); });
+}
+
+INSONIFY_FUNCTION image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance) {
+    image<std::uint8_t> mask(l.shadow.width(), l.shadow.height());
+    for (std::size_t i = 0; i < mask.size(); ++i)
+        mask.pixels()[i] = l.shadow.pixels()[i] == instance && l.instance.pixels()[i] == labels::no_instance ? 255 : 0;
+    return mask;
+}
+
+INSONIFY_FUNCTION class_map classes_of(const labels& l) {
     class_map map;
     detail::dynamic_array<std::uint16_t> class_of{0};  // by instance
     for (const target_label& t : l.targets) {
@@ -10746,14 +10861,6 @@ inline class_map classes_of(const labels& l) {
     return map;
 }
 
-}  // namespace INSONIFY_FLAGS
-
-inline namespace INSONIFY_ONCE {
-
-/// Sets the bounding boxes and areas of the listed targets from the images.
-INSONIFY_FUNCTION void measure_targets(labels& l);
-
-#if INSONIFY_BODIES
 INSONIFY_FUNCTION void measure_targets(labels& l) {
     const auto include = [](rect& box, std::int64_t& area, int x, int y) {
         if (area++ == 0) box = {x, y, x, y};
@@ -11198,6 +11305,8 @@ struct visibility {
 
 namespace detail::inline INSONIFY_FLAGS {
 
+// Undefined where a program of the compiled form uses a shadow policy or law of its own without including
+// sonar/overhead/render.hpp.
 template <class Shadow, class Labels, class Law, depth_precision Depth>
 frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
                     executor_ref ex);
@@ -16401,7 +16510,7 @@ namespace detail::inline INSONIFY_FLAGS {
 template <class Options>
 bottom_materials checked_materials(const scene& s, const Options& options) {
     validate(s);
-    require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
+    require_numbered_targets(s);
     require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "0 metres or more");
     validate_if_possible(options.law);
     return resolved_bottom(s);
@@ -16973,7 +17082,7 @@ class pixel_marks {
         for (int y = pixels.y0; y < pixels.y1; ++y)
             std::fill_n(&bytes_(pixels.x0 / 8, y), (pixels.width() + 7) / 8, std::uint8_t{0});
     }
-    /// Sets the marks of some of up to eight pixels, bit by bit, that lie in one byte.
+    /// Replaces the marks of the pixels in `which` (bit i is pixel x + i) by those in `marks`; all lie in one byte.
     INSONIFY_INLINE void set(int x, int y, unsigned which, unsigned marks) {
         std::uint8_t& byte = bytes_(x / 8, y);
         byte = static_cast<std::uint8_t>((byte & ~(which << x % 8)) | (marks & which) << x % 8);
@@ -17001,8 +17110,8 @@ struct undecided_pixel {
 
 /// Output of shading for the shadow pass: a list for each tile, as few pixels are undecided.
 ///
-/// A pixel whose triangle is known to be lit gets all its light at once, any other its sky and ambient light. A surface
-/// that is drawn over another leaves the other's pixels in the lists: the last one of a marked pixel counts.
+/// A pixel whose triangle is known to be lit gets all its light at once, any other its sky and ambient light. Entries
+/// of pixels that a nearer surface overwrites stay listed; of a marked pixel, the last entry is valid.
 class undecided_light {
   public:
     undecided_light() = default;
@@ -17011,9 +17120,9 @@ class undecided_light {
         : tiles_(width, height, std::countr_zero(static_cast<unsigned>(tile))), marks_(width, height, memory) {
         std::size_t start = 0;
         for (std::size_t i = 0; i < tiles_.count(); ++i) {
-            // More than the tile's pixels, so that hidden ones are rarely looked for.
-            const rect box = tiles_.pixels(i, width, height);
-            const auto shown = static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height());
+            // A quarter more than the tile's pixels, so that remove_hidden() rarely runs.
+            const rect shown_in = tiles_.pixels(i, width, height);
+            const auto shown = static_cast<std::size_t>(shown_in.width()) * static_cast<std::size_t>(shown_in.height());
             lists_.push_back({start, 0, shown + shown / 4 + 8});
             start += lists_.back().room;
         }
@@ -17026,8 +17135,8 @@ class undecided_light {
         lists_[tile_of(tile.x0, tile.y0)].count = 0;
     }
 
-    /// Lists the undecided ones of some of N pixels of a row, whose marks lie in one byte; what was known of the others
-    /// before does not count any more.
+    /// Lists the undecided pixels of up to N in a row, whose marks lie in one byte, and discards earlier entries of all
+    /// pixels in `which`.
     /// @param which      pixels that are shaded, bit by bit
     /// @param undecided  those of them whose light is undecided
     template <int N>
@@ -17080,7 +17189,7 @@ class undecided_light {
         return {static_cast<int>(tile % columns) << tiles_.log2_size, static_cast<int>(tile / columns)
                                                                           << tiles_.log2_size};
     }
-    /// Leaves only pixels in a list that count.
+    /// Removes entries that are not valid.
     INSONIFY_RARE void remove_hidden(std::size_t tile) {
         list& of = lists_[tile];
         undecided_pixel* const start = pixels_.data() + of.start;
@@ -17381,7 +17490,8 @@ class sampled_bottom {
         const auto along = [&](int axis) {
             const double first = static_cast<double>(numeric::floor_to_int(ground.lower[axis] / spacing + 1e-6));
             const double count = 1 - static_cast<double>(numeric::floor_to_int(-ground.upper[axis] / spacing)) - first;
-            require(count <= 1 << 20, "vertices of the seabed along an axis", count, "at most 2^20: less `reach`");
+            require(count <= 1 << 20, "vertices of the seabed along an axis", count,
+                    "at most 2^20; reduce `reach` or enlarge `cell`");
             first_[axis] = static_cast<int>(first);
             return static_cast<int>((std::max)(2.0, count));
         };
@@ -17459,8 +17569,7 @@ namespace detail::inline INSONIFY_FLAGS {
 /// The light of a rig, in its frame.
 inline shadow::any_light light_in_rig(const overhead_geometry& view) {
     if (view.has_near_light()) return shadow::point_light{view.light_position()};
-    return shadow::directional_light{static_cast<double>(view.rig().light_azimuth),
-                                     static_cast<double>(view.rig().grazing)};
+    return shadow::directional_light{numeric::widened(view.rig().light_azimuth), numeric::widened(view.rig().grazing)};
 }
 
 /// The label of a caster in labels::shadow. Targets are the first casters.
@@ -17475,7 +17584,7 @@ inline std::uint16_t shadow_label(std::uint32_t caster, std::size_t targets) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/overhead/detail/point_pass.hpp ---------------------------------------------
-// From a visibility buffer to points: where the surfaces lie that pixels show, and which of them face the light.
+// Computes the surface points of undecided pixels, and whether each faces the light.
 //
 // The point is where the ray through the pixel's centre meets the plane of the pixel's triangle, in doubles, held to
 // the triangle: rounding to sub-pixels may show a triangle beside its edge. Everything is computed in the mesh's own
@@ -17518,8 +17627,8 @@ class point_list {
   public:
     std::size_t facing = 0, averted = 0;
 
-    /// @param room         of as many points as may come
-    /// @param first, last  the part of it
+    /// @param room         the batch to fill
+    /// @param first, last  the range of it for this list
     point_list(point_batch& room, std::size_t first, std::size_t last) : room_(&room), first_(first), last_(last) {}
 
     std::size_t size() const { return facing + averted; }
@@ -17581,7 +17690,7 @@ struct point_kernel {
     const point_finder& from;
     std::span<const shown_pixel> pixels;
     bool has_near_light;
-    bool wants_averted;
+    bool includes_averted;
     const rect& box;      ///< the tile's pixels
     std::uint32_t pitch;  ///< pixels from one row of the picture to the next
     point_list& points;
@@ -17710,7 +17819,7 @@ struct point_kernel {
         });
         store(facing, faces);
         for (std::size_t k = 0; k < count; ++k) {
-            if (facing[k] == 0 && !wants_averted) continue;
+            if (facing[k] == 0 && !includes_averted) continue;
             const shown_pixel& shown = pixels[start + k];
             points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], s.caster, shown.triangle,
                        static_cast<std::uint32_t>(box.y0 + shown.row) * pitch +
@@ -17719,12 +17828,12 @@ struct point_kernel {
         }
     }
 
-    /// Facets whose sine of the angle to the light is below this face away: vertices are rounded to 2^-24, and facets
+    /// Facets at a smaller sine to the light count as facing away: vertices are rounded to 2^-24, and facets
     /// parallel to the light up to that error are dark.
     static constexpr double grazed = 0x1p-22;
 
-    /// Points are kept off the edges of their triangle by this share of it: a neighbour that rises towards the light
-    /// touches a point on their edge, and what touches a point doesn't block it.
+    /// Points keep this barycentric distance from the edges of their triangle: a point on an edge would lie in the
+    /// adjacent triangle, too, which then would not block it.
     static constexpr double border = 0x1p-20;
 
     /// Rounding to sub-pixels may show a triangle beside its edge; one seen from its edge gives NaN or infinity.
@@ -17763,10 +17872,9 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// A mesh as a caster, and which of its triangles may be skipped for points that the camera sees.
 ///
-/// A ray from a point outside of a closed surface crosses it inwards as often as outwards on its way to the light, and
-/// inwards means through a triangle that faces away from the light: if anything blocks it, such a one does. What a
-/// camera outside of the surface sees lies outside. Of a heightfield the same holds for its own points if camera and
-/// light are above it, because over a convex ground a ray leaves it at most through the air.
+/// A ray that starts outside of a closed mesh and hits it enters it through a triangle that faces away from the light,
+/// so triangles that face the light may be skipped. What a camera outside of the mesh sees lies outside. The same holds
+/// for a heightfield's own points if camera and light are above it: rays leave its bounds above the surface.
 inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh& m) {
     surface seen;
     seen.to_rig = m.to_rig;
@@ -17798,7 +17906,7 @@ struct light_arrays {
     }
 };
 
-/// Points that face the light concern all casters; of those that face away, shadows only name targets.
+/// Points that face the light concern all casters; those that face away only need the targets, for labels.
 /// @param targets  casters numbered below this are targets
 inline shadow::points batch(shadow::points all, bool face_light, std::uint32_t targets) {
     if (!face_light) all.casters = targets;
@@ -20499,7 +20607,7 @@ class hull_lines {
           plating_(static_cast<double>(h.plating)),
           collapse_(static_cast<double>(h.collapse)),
           is_transom_(h.stern == stern_type::transom),
-          // The formula's constant scales with ships; for models and giants all of it follows the length.
+          // The standard sheer of load lines, L/3 + 10; below 40 m the 10 becomes L/4, so that models keep the shape.
           sheer_(static_cast<double>(h.sheer) * 0.05 * (length_ / 3 + (std::min)(10.0, length_ / 4))),
           key_(stream_key(h.seed, 0x68756C6C)) {}
 
@@ -22571,7 +22679,7 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/edit.hpp ------------------------------------------------------------------
-// Edits of a seabed: hills, furrows, ramps, deposits; moat.hpp has scour. sculpt.hpp applies them.
+// Edits of a seabed: hills, furrows, ramps, deposits; moat.hpp adds scour moats. sculpt.hpp applies them.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -22696,7 +22804,7 @@ inline ground_rect ground_of(const heap& e) {
     require_metres("heap.radius", e.radius);
     require_height("heap.level", e.level);
     require(e.slope >= 1e-3f && e.slope < 1e6f, "heap.slope", e.slope, "a slope from 0.001");
-    // The ground may be at any height; the search ends a hundred metres below the top.
+    // Bounds cover ground down to a hundred metres below the top.
     return rect_around({&e.centre, 1}, static_cast<double>(e.radius) + 100 / static_cast<double>(e.slope));
 }
 
@@ -22828,7 +22936,8 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/sculpt.hpp ----------------------------------------------------------------
-// Sculpted seabeds: a base and a sequence of edits that raise, lower, flatten, smooth, ramp, stamp, heap or scour.
+// Sculpted seabeds: a base and a sequence of edits that raise, flatten, smooth, ramp, stamp, heap or dig
+// scour moats.
 //
 // An edit is a function of the position and of the height after the edits before it, so that a sculpted seabed stays
 // unbounded and independent of the grid. Outside an edit's bounds no bit changes.
@@ -22975,33 +23084,6 @@ struct map_extent {
         return both;
     }
 };
-
-/// The smallest extent that holds both.
-inline map_extent merge(const map_extent& a, const map_extent& b) {
-    map_extent both = a;
-    both.include({b.lowest.x, b.lowest.y, b.floor});
-    both.include({b.highest.x, b.highest.y, b.ceiling});
-    return both;
-}
-
-/// The extent of a mesh under a light; positions that aren't finite are passed over.
-template <executor_argument E = serial_executor>
-map_extent extent_of(const mesh_view& m, const affine& to_world, const light_frame& frame, E&& ex = {}) {
-    constexpr std::size_t grain = 16384;
-    insonify::detail::dynamic_array<map_extent> parts((m.positions.size() + grain - 1) / grain);
-    bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
-        map_extent part;
-        for (std::size_t i = first; i < last; ++i) {
-            const glm::dvec3 world = transform_point(to_world, glm::dvec3(m.positions[i]));
-            if (numeric::is_finite(world.x + world.y + world.z)) part.include(frame(world));
-        }
-        parts[first / grain] = part;
-    });
-    map_extent whole;
-    for (const map_extent& part : parts)
-        if (!part.empty()) whole = merge(whole, part);
-    return whole;
-}
 
 /// Vertex shader of height maps: from a mesh's coordinates to clip space, with w = 1.
 struct map_placement {
@@ -23315,9 +23397,6 @@ class map_occlusion {
         }
     }
 
-    /// The map of one caster.
-    const height_map& of(std::size_t caster) const { return maps_[caster]; }
-
   private:
     static light_frame parallel(const any_light& light) {
         if (const auto* from_nearby = std::get_if<point_light>(&light)) {
@@ -23423,28 +23502,6 @@ class penumbra_occlusion {
             add(i, at, one, into);
         }
         divide(into);
-    }
-
-    /// The same for many batches of at most `max_batch` points each, all of them at once.
-    template <executor E>
-    void test(std::span<const points> at, std::span<const results> into, E& ex) const {
-        lights_.front().blocked.test(at, into, ex);
-        std::size_t count = 0;
-        for (const points& some : at) count += some.size();
-        insonify::detail::uninitialized_array<float> lit(count);
-        insonify::detail::uninitialized_array<std::uint32_t> blocking(count);
-        detail::dynamic_array<results> one;
-        count = 0;
-        for (const points& some : at) {
-            one.push_back(
-                {std::span(lit).subspan(count, some.size()), std::span(blocking).subspan(count, some.size())});
-            count += some.size();
-        }
-        for (std::size_t i = 1; i < lights_.size(); ++i) {
-            lights_[i].blocked.test(at, std::span<const results>(one), ex);
-            ex.bulk(at.size(), [&](std::size_t k) { add(i, at[k], one[k], into[k]); });
-        }
-        for (const results& some : into) divide(some);
     }
 
   private:
@@ -24089,6 +24146,10 @@ inline namespace INSONIFY_FLAGS {
 
 /// Records a track of any shape, with yaw, pitch, roll and heave of every ping.
 ///
+/// Pings are numbered from 0: set `rows.first` of a part of a longer track before `with_speckle` or `with_tone`. A
+/// `horizontal_beam` blurs over the given pings alone, so parts of a track need more pings at their ends, to be
+/// dropped.
+///
 /// @param s        the seabed and its targets
 /// @param track    pings in order; row i of the result is ping i
 /// @param rig      ranges, side and ping spacing; its own track is ignored. Its altitude is nominal: the default `cell`
@@ -24124,7 +24185,8 @@ render_stats record_into(image_view<float> into, const scene& s, std::span<const
     return recorded.stats;
 }
 
-/// Records the straight track of a rig, in slant or ground range. Row i is ping i. The other parameters are those of
+/// Records the straight track of a rig, in slant or ground range. Row i is ping i. For a `horizontal_beam`, the track
+/// is continued beyond its ends. The other parameters are those of
 /// `record`.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
@@ -25940,8 +26002,9 @@ INSONIFY_ARITHMETIC_END
 // Speckle by seabed label.
 //
 // The fluctuation of a bin is a function of (seed, side, ping number, bin) alone: recordings made in pieces fit
-// together, and the two sides are independent. The laws are those of the speckle filters (filter/echo_noise.hpp), for
-// recordings without a largest value.
+// together if `frame.rows.first` is each piece's first ping (`record` counts from 0), and the two sides are
+// independent. The laws are those of the speckle filters (filter/echo_noise.hpp), for recordings without a largest
+// value.
 
 #if INSONIFY_BODIES
 #endif
@@ -26408,7 +26471,7 @@ inline shadow::any_light light_of(const overhead& rig) {
     const overhead_geometry view(rig);
     shadow::any_light light = detail::light_in_rig(view);
     if (auto* parallel = std::get_if<shadow::directional_light>(&light)) {
-        parallel->azimuth += static_cast<double>(rig.yaw);
+        parallel->azimuth += numeric::widened(rig.yaw);
     } else {
         glm::dvec3& position = std::get<shadow::point_light>(light).position;
         position = numeric::product(glm::transpose(view.rig_from({}).linear), position) + glm::dvec3(rig.position, 0);
@@ -26435,12 +26498,14 @@ class scene_occlusion {
     template <class Shadow, executor E>
     scene_occlusion(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
                     const Shadow& policy, E& ex)
-        : centre_((require_box(within), require_light(light), within.box.centre())),
+        : centre_(
+              (detail::require_numbered_targets(s), require_box(within), require_light(light), within.box.centre())),
           shapes_(shapes_of(s, light, within, shadow::radius_of(policy), ex)),
           targets_(s.targets.size()),
           built_(policy.build(casters(), from_centre(light), local(within), ex)) {}
 
-    /// @param at  in the world, within the bounds
+    /// @param at  in the world, within the bounds. This is not checked: the seabed is not sampled for points outside,
+    ///            which may come out lit
     template <executor_argument E = serial_executor>
     occlusion_results test(std::span<const glm::dvec3> at, E&& ex = {}) const {
         occlusion_results all{std::vector<float>(at.size()), std::vector<std::uint16_t>(at.size())};
@@ -26568,7 +26633,8 @@ class scene_occlusion {
 /// @param within  region of the points, and sampling of the seabed
 /// @param policy  any shadow policy
 /// @param ex      runs it; the result is the same for any executor
-/// @throws invalid_input for bounds that are empty or not finite, or a light or a policy out of range
+/// @throws invalid_input for bounds that are empty or not finite, a light or a policy out of range, or more than 65534
+///         targets
 template <shadow::casting_policy Shadow = shadow::exact, executor_argument E = serial_executor>
 auto occlusion_of(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
                   const Shadow& policy = {}, E&& ex = {}) {

@@ -5,7 +5,6 @@
 
 #include <insonify/all.hpp>
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 

@@ -29,7 +29,8 @@ struct color_table {
     INSONIFY_MEMBER constexpr rgb8 operator()(Value value) const {
         return colors[quantize<std::uint8_t>(value)];
     }
-    INSONIFY_TAGGED void row(const float* from, rgb8* to, int count, int, int) const {
+    template <std::same_as<float> Value>
+    INSONIFY_TAGGED void row(const Value* from, rgb8* to, int count, int, int) const {
         std::uint8_t codes[run_length];
         quantize_row(from, codes, count);
         for (int i = 0; i < count; ++i) to[i] = colors[codes[i]];

@@ -36,8 +36,8 @@ struct rayleigh {
     /// @throws invalid_input for a correlation length outside 0 to 16
     INSONIFY_MEMBER auto pass() const {
         detail::require_correlation("rayleigh.correlation", correlation);
-        return detail::echo_pass(detail::noise_stream::rayleigh, seed, frame,
-                                 {"rayleigh", detail::echo_draw::exponential}, of, correlation);
+        return detail::echo_pass<detail::echo_draw::exponential>(detail::noise_stream::rayleigh, seed, frame,
+                                                                 {"rayleigh"}, of, correlation);
     }
 };
 
@@ -56,8 +56,8 @@ struct gamma_speckle {
     INSONIFY_TAGGED auto pass() const {
         detail::check_shape("gamma_speckle.looks", looks);
         detail::require_correlation("gamma_speckle.correlation", correlation);
-        return detail::echo_pass(detail::noise_stream::gamma_speckle, seed, frame,
-                                 {"gamma_speckle.looks", detail::echo_draw::gamma, looks}, of, correlation);
+        return detail::echo_pass<detail::echo_draw::gamma>(detail::noise_stream::gamma_speckle, seed, frame,
+                                                           {"gamma_speckle.looks", looks}, of, correlation);
     }
 };
 
@@ -82,10 +82,8 @@ struct k_speckle {
         detail::check_shape("k_speckle.shape", shape);
         detail::check_shape("k_speckle.looks", looks);
         detail::require_correlation("k_speckle.correlation", correlation);
-        return detail::echo_pass(
-            detail::noise_stream::k_speckle, seed, frame,
-            {"k_speckle.shape", looks == 1 ? detail::echo_draw::exponential : detail::echo_draw::gamma, looks, shape},
-            of, correlation);
+        return detail::echo_pass<detail::echo_draw::by_looks>(detail::noise_stream::k_speckle, seed, frame,
+                                                              {"k_speckle.shape", looks, shape}, of, correlation);
     }
 };
 
@@ -107,8 +105,8 @@ struct rician {
         steady.check(
             "rician.steady", [](float v) { return v >= 0 && v <= 1e6f; }, "0 to 1e6");
         detail::require_correlation("rician.correlation", correlation);
-        return detail::echo_pass(detail::noise_stream::rician, seed, frame,
-                                 {"rician.steady", detail::echo_draw::rice, 1, 0, steady}, of, correlation);
+        return detail::echo_pass<detail::echo_draw::rice>(detail::noise_stream::rician, seed, frame,
+                                                          {"rician.steady", 1, 0, steady}, of, correlation);
     }
 };
 

@@ -14,8 +14,6 @@
 #include <insonify/filter/detail/noise_pass.hpp>
 #include <insonify/filter/parameter.hpp>
 
-#include <optional>
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
@@ -78,33 +76,20 @@ struct multiplied_draw {
 template <class Draws, class Rule>
 class scaled_law {
   public:
-    scaled_law(Rule rule, noise_key noise, deviation scale) : rule_(rule), noise_(noise), scale_(std::move(scale)) {}
-
-    /// With correlated draws.
-    scaled_law(Rule rule, noise_key noise, deviation scale, const correlation_length& length)
-        : scaled_law(rule, noise, std::move(scale)) {
-        if (length.x > 0 || length.y > 0)
-            correlated_.emplace(noise, field_taps(static_cast<double>(length.x)),
-                                field_taps(static_cast<double>(length.y)));
-    }
+    /// @param draws  independent_draws or field_draws
+    scaled_law(Rule rule, Draws draws, deviation scale)
+        : rule_(rule), draws_(std::move(draws)), scale_(std::move(scale)) {}
 
     void row(const float* from, float* to, const noise_run& run) {
-        const float* const scale = scale_.row(run);
         draw_buffer buffer;
-        const float* draws = buffer;
-        if (correlated_)
-            correlated_->row(buffer, 0, run);
-        else
-            draws = white_draws<Draws>(buffer, noise_, 0, run);
-        apply_rule(rule_, from, draws, scale, to, run.count);
+        apply_rule(rule_, from, draws_.row(buffer, 0, run), scale_.row(run), to, run.count);
     }
     void prepare(const pixel_area& area) { scale_.prepare(area); }
 
   private:
     Rule rule_;
-    noise_key noise_;
+    Draws draws_;
     deviation scale_;
-    std::optional<correlated_draws> correlated_;
 };
 
 /// Replaces a pixel where p, uniform in (0, 1], is below the density: by black below half the density, else by white.
@@ -155,8 +140,8 @@ struct gaussian {
         detail::require(numeric::is_finite(mean), "gaussian.mean", mean, "finite");
         detail::check_variance("gaussian.variance", variance);
         detail::require_correlation("gaussian.correlation", correlation);
-        return detail::noise_pass(detail::scaled_law<detail::normal_draws, detail::added_draw>(
-            {mean}, {seed, detail::noise_stream::gaussian, frame}, {"gaussian.variance", variance, 1}, correlation));
+        return detail::noise_pass(detail::scaled_law<detail::normal_fields, detail::added_draw>(
+            {mean}, {{seed, detail::noise_stream::gaussian, frame}, correlation}, {"gaussian.variance", variance, 1}));
     }
 };
 
@@ -173,8 +158,9 @@ struct speckle {
     ///         than the image
     INSONIFY_MEMBER auto pass() const {
         detail::check_variance("speckle.variance", variance);
-        return detail::noise_pass(detail::scaled_law<detail::symmetric_draws, detail::multiplied_draw>(
-            {}, {seed, detail::noise_stream::speckle, frame}, {"speckle.variance", variance, 3}));
+        using draws = detail::independent_draws<detail::symmetric_draws>;
+        return detail::noise_pass(detail::scaled_law<draws, detail::multiplied_draw>(
+            {}, {{seed, detail::noise_stream::speckle, frame}}, {"speckle.variance", variance, 3}));
     }
 };
 
@@ -192,9 +178,9 @@ struct gaussian_speckle {
     INSONIFY_TAGGED auto pass() const {
         detail::check_variance("gaussian_speckle.variance", variance);
         detail::require_correlation("gaussian_speckle.correlation", correlation);
-        return detail::noise_pass(detail::scaled_law<detail::normal_draws, detail::multiplied_draw>(
-            {}, {seed, detail::noise_stream::gaussian_speckle, frame}, {"gaussian_speckle.variance", variance, 1},
-            correlation));
+        return detail::noise_pass(detail::scaled_law<detail::normal_fields, detail::multiplied_draw>(
+            {}, {{seed, detail::noise_stream::gaussian_speckle, frame}, correlation},
+            {"gaussian_speckle.variance", variance, 1}));
     }
 };
 

@@ -4,8 +4,8 @@
 // Adjacent point-wise stages run as one pass over the image. A measured stage reads the finished image of the stages
 // before it and starts the next pass (filter/concept.hpp defines both kinds).
 //
-// Lambdas and users' classes are filters as they are. One side of `f | g` must declare `is_filter`, as the library's
-// filters do, or be a chain; `filter_chain<>{} | f | g` composes others.
+// Lambdas and users' classes are filters as they are. One side of `f | g` must be a filter or a chain of the library,
+// since the operator is looked up in its namespace; `filter_chain<>{} | f | g` composes two of a user's own.
 #pragma once
 
 #include <insonify/filter/detail/run_stages.hpp>

@@ -19,12 +19,15 @@ struct cone {
     int segments = 64;     ///< around the axis, 3 to 2^20; see `segments_for`
 };
 
-inline namespace INSONIFY_FLAGS {
+inline namespace INSONIFY_ONCE {
 
 /// The rims (and the tip) have vertices of their own for each side's normal.
 /// @throws invalid_input for a radius or height that is not finite and positive, a top radius that is not finite or
 ///         negative, or segments outside 3 to 2^20
-inline mesh to_mesh(const cone& shape) {
+INSONIFY_FUNCTION mesh to_mesh(const cone& shape);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION mesh to_mesh(const cone& shape) {
     detail::require_positive("cone.radius", shape.radius);
     detail::require_positive("cone.height", shape.height);
     detail::require(numeric::is_finite(shape.top_radius) && shape.top_radius >= 0, "cone.top_radius", shape.top_radius,
@@ -47,6 +50,11 @@ inline mesh to_mesh(const cone& shape) {
     }
     return revolve(outline, shape.segments);
 }
+#endif
+
+}  // namespace INSONIFY_ONCE
+
+inline namespace INSONIFY_FLAGS {
 
 /// Fewest segments with which the wider rim, and with it the side, deviates from its circle by at most `deviation`.
 /// See `segments_for(radius, chord_error)`.

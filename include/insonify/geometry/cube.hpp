@@ -18,11 +18,14 @@ struct cube {
     glm::vec3 size{1};  ///< edge lengths, metres
 };
 
-inline namespace INSONIFY_FLAGS {
+inline namespace INSONIFY_ONCE {
 
 /// 24 vertices (each corner three times, once for each face's normal) and 12 triangles.
 /// @throws invalid_input for a size that is not finite and positive
-inline mesh to_mesh(const cube& shape) {
+INSONIFY_FUNCTION mesh to_mesh(const cube& shape);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION mesh to_mesh(const cube& shape) {
     mesh out;
     for (int along = 0; along < 3; ++along) {
         detail::require_positive("cube.size", shape.size[along]);
@@ -45,9 +48,9 @@ inline mesh to_mesh(const cube& shape) {
     }
     return out;
 }
+#endif
 
-}  // namespace INSONIFY_FLAGS
-
+}  // namespace INSONIFY_ONCE
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -25,11 +25,18 @@ struct capsule {
     int segments = 64;    ///< around the axis, 3 to 8192; half as many rings over both ends
 };
 
-inline namespace INSONIFY_FLAGS {
+inline namespace INSONIFY_ONCE {
 
 /// 4 segments + 2 vertices, of which the rims have two sets, one for each normal.
 /// @throws invalid_input for a radius or length that is not finite and positive, or segments outside 3 to 2^20
-inline mesh to_mesh(const cylinder& shape) {
+INSONIFY_FUNCTION mesh to_mesh(const cylinder& shape);
+
+/// @throws invalid_input for a radius that is not finite and positive, a length that is not finite or below 2 radius,
+///         or segments outside 3 to 8192
+INSONIFY_FUNCTION mesh to_mesh(const capsule& shape);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION mesh to_mesh(const cylinder& shape) {
     detail::require_positive("cylinder.radius", shape.radius);
     detail::require_positive("cylinder.length", shape.length);
     const auto radius = static_cast<double>(shape.radius);
@@ -43,9 +50,7 @@ inline mesh to_mesh(const cylinder& shape) {
     return revolve(outline, shape.segments, axis::x);
 }
 
-/// @throws invalid_input for a radius that is not finite and positive, a length that is not finite or below 2 radius,
-///         or segments outside 3 to 8192
-inline mesh to_mesh(const capsule& shape) {
+INSONIFY_FUNCTION mesh to_mesh(const capsule& shape) {
     detail::require_positive("capsule.radius", shape.radius);
     detail::require(numeric::is_finite(shape.length) && shape.length >= 2 * shape.radius, "capsule.length",
                     shape.length, "finite and at least twice the radius");
@@ -58,6 +63,11 @@ inline mesh to_mesh(const capsule& shape) {
     detail::append_arc(outline, radius, straight, 0.25, 0.5, steps);
     return revolve(outline, shape.segments, axis::x);
 }
+#endif
+
+}  // namespace INSONIFY_ONCE
+
+inline namespace INSONIFY_FLAGS {
 
 /// Fewest segments with which no point of the shape is farther than `deviation` from the mesh's surface, whatever the
 /// shape's own `segments`; see `segments_for(radius, chord_error)`.

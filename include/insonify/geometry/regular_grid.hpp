@@ -2,16 +2,19 @@
 // that callers need no flag and a wrong flag cannot change a result.
 #pragma once
 
-#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/executor.hpp>
+#include <insonify/geometry/mesh.hpp>
+
+#if INSONIFY_BODIES
+#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/lanes.hpp>
-#include <insonify/geometry/mesh.hpp>
 
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#endif
 #include <optional>
 
 #include <glm/vec2.hpp>
@@ -32,6 +35,7 @@ struct regular_grid {
     double off = 0x1p-12;  ///< bound of the distance of vertices from the lattice, in steps
 };
 
+#if INSONIFY_BODIES
 namespace detail::inline INSONIFY_FLAGS {
 
 /// Compares the triangles of a row of cells with those of one cell, moved by a vertex from cell to cell.
@@ -110,17 +114,17 @@ struct cell_cut {
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
+#endif
 
-inline namespace INSONIFY_FLAGS {
+namespace detail::inline INSONIFY_ONCE {
 
-/// The regular grid of a mesh's vertices; none if they are not on one, or a height is not finite.
-/// @param off  distance from the lattice up to which vertices are accepted, in steps; `regular_grid::off` of the result
-///             bounds the actual distance
-template <executor_argument E = serial_executor>
-std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, double off = 1.0 / 256) {
+INSONIFY_FUNCTION std::optional<regular_grid> find_regular_grid(const mesh_view& m, executor_ref ex, double off);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION std::optional<regular_grid> find_regular_grid(const mesh_view& m, executor_ref ex, double off) {
     if (m.triangles.size() < 2) return std::nullopt;
     const glm::uvec3 cell[2] = {m.triangles[0], m.triangles[1]};
-    const auto cut = detail::cell_cut::of(cell);
+    const auto cut = cell_cut::of(cell);
     if (!cut) return std::nullopt;
     const std::size_t columns = cut->columns, rows = m.positions.size() / columns;
     if (rows < 2 || columns > 1 << 20 || rows > 1 << 20 || rows * columns != m.positions.size() ||
@@ -141,7 +145,7 @@ std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, dou
 
     std::atomic<bool> differs = false;
     constexpr std::size_t grain = 16;
-    detail::dynamic_array<double> farthest((rows + grain - 1) / grain, 0);  // squared, of the vertices of some rows
+    dynamic_array<double> farthest((rows + grain - 1) / grain, 0);  // squared, of the vertices of some rows
     bulk_ranges(ex, rows, grain, [&](std::size_t first, std::size_t last) {
         for (std::size_t j = first; j < last && !differs; ++j) {
             const glm::dvec2 start = grid.origin + static_cast<double>(j) * grid.up;
@@ -154,15 +158,27 @@ std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, dou
             }
             if (j + 1 == rows) continue;
             const auto corner = static_cast<std::uint32_t>(j * columns);
-            std::uint32_t vertices[detail::cell_row_kernel::indices];
-            for (int i = 0; i < detail::cell_row_kernel::indices; ++i) vertices[i] = cell[i / 3][i % 3] + corner;
-            dispatch(detail::cell_row_kernel{&m.triangles[j * 2 * (columns - 1)], columns - 1, vertices, differs},
-                     best_isa());
+            std::uint32_t vertices[cell_row_kernel::indices];
+            for (int i = 0; i < cell_row_kernel::indices; ++i) vertices[i] = cell[i / 3][i % 3] + corner;
+            dispatch(cell_row_kernel{&m.triangles[j * 2 * (columns - 1)], columns - 1, vertices, differs}, best_isa());
         }
     });
     if (differs) return std::nullopt;
     grid.off = numeric::square_root(*std::max_element(farthest.begin(), farthest.end())) / step;
     return grid;
+}
+#endif
+
+}  // namespace detail::inline INSONIFY_ONCE
+
+inline namespace INSONIFY_FLAGS {
+
+/// The regular grid of a mesh's vertices; none if they are not on one, or a height is not finite.
+/// @param off  distance from the lattice up to which vertices are accepted, in steps; `regular_grid::off` of the result
+///             bounds the actual distance
+template <executor_argument E = serial_executor>
+std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, double off = 1.0 / 256) {
+    return detail::find_regular_grid(m, ex, off);
 }
 
 }  // namespace INSONIFY_FLAGS

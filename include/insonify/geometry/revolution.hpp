@@ -52,6 +52,7 @@ inline int segments_for(float radius, float chord_error) {
 
 namespace detail::inline INSONIFY_FLAGS {
 
+#if INSONIFY_BODIES
 /// Appends an arc of a circle centred on the axis, `steps` + 1 points from `first` to `last`: turns, counted from the
 /// lowest point (0) over the equator (1/4) to the highest (1/2).
 inline void append_arc(dynamic_array<outline_point>& outline, double radius, double centre, double first, double last,
@@ -66,6 +67,7 @@ inline void append_arc(dynamic_array<outline_point>& outline, double radius, dou
 inline void require_round_segments(const char* name, int segments) {
     require(segments >= 3 && segments <= 8192, name, segments, "3 to 8192");
 }
+#endif
 
 /// Distance from the centre of a unit ball of `segments` by `rings` to the nearest of its faces, which is at the
 /// equator. Faces are trapezia, hence plane.

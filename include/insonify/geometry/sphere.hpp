@@ -37,6 +37,7 @@ float longest_semi_axis(const Round& shape) {
     return shape.radius * (std::max)((std::max)(shape.aspect.x, shape.aspect.y), shape.aspect.z);
 }
 
+#if INSONIFY_BODIES
 /// Turns an outline about z and stretches the result with its normals.
 inline mesh stretched_round(const dynamic_array<outline_point>& outline, const char* name, const glm::vec3& aspect,
                             int segments) {
@@ -49,14 +50,21 @@ inline mesh stretched_round(const dynamic_array<outline_point>& outline, const c
     }
     return transformed(std::move(out), stretch);
 }
+#endif
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-inline namespace INSONIFY_FLAGS {
+inline namespace INSONIFY_ONCE {
 
 /// Closed by index: every vertex is shared, and the poles are one vertex each.
 /// @throws invalid_input for a radius or aspect that is not finite and positive, or segments outside 3 to 8192
-inline mesh to_mesh(const sphere& shape) {
+INSONIFY_FUNCTION mesh to_mesh(const sphere& shape);
+
+/// @throws invalid_input for a radius or aspect that is not finite and positive, or segments outside 3 to 8192
+INSONIFY_FUNCTION mesh to_mesh(const hemisphere& shape);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION mesh to_mesh(const sphere& shape) {
     detail::require_positive("sphere.radius", shape.radius);
     detail::require_round_segments("sphere.segments", shape.segments);
     detail::dynamic_array<outline_point> outline;
@@ -64,8 +72,7 @@ inline mesh to_mesh(const sphere& shape) {
     return detail::stretched_round(outline, "sphere.aspect", shape.aspect, shape.segments);
 }
 
-/// @throws invalid_input for a radius or aspect that is not finite and positive, or segments outside 3 to 8192
-inline mesh to_mesh(const hemisphere& shape) {
+INSONIFY_FUNCTION mesh to_mesh(const hemisphere& shape) {
     detail::require_positive("hemisphere.radius", shape.radius);
     detail::require_round_segments("hemisphere.segments", shape.segments);
     const auto radius = static_cast<double>(shape.radius);
@@ -73,6 +80,11 @@ inline mesh to_mesh(const hemisphere& shape) {
     detail::append_arc(outline, radius, 0.0, 0.25, 0.5, (shape.segments + 3) / 4);
     return detail::stretched_round(outline, "hemisphere.aspect", shape.aspect, shape.segments);
 }
+#endif
+
+}  // namespace INSONIFY_ONCE
+
+inline namespace INSONIFY_FLAGS {
 
 /// Fewest segments with which no point of the shape is farther than `deviation` from the mesh's surface, whatever the
 /// shape's own `segments`. A stretched one counts as a ball of its longest semi-axis.

@@ -45,10 +45,10 @@ template <depth_precision Depth = depth_precision::exact>
 struct draw_options {
     cull_mode cull = cull_mode::none;
     keep_depth keep = keep_depth::smaller;
-    depth_load load = depth_load::keep;
-    int subpixel_bits = 8;   ///< 4 to 16: vertices are rounded to 2^-bits pixels
-    int tile = 64;           ///< pixels, a power of two from 8 to 256
-    isa level = best_isa();  ///< the widest instruction set to use
+    depth_load load = depth_load::keep;  ///< a new image is full of 0, the nearest depth of `smaller`: clear it
+    int subpixel_bits = 8;               ///< 4 to 16: vertices are rounded to 2^-bits pixels
+    int tile = 64;                       ///< pixels, a power of two from 8 to 256
+    isa level = best_isa();              ///< the widest instruction set to use
 };
 
 /// What happened to the triangles of a draw. Each of `triangles` is counted once among drawn, culled, missed,

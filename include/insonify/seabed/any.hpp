@@ -69,7 +69,10 @@ any_sampler hold_sampler(S sampler, std::shared_ptr<const void> owner = nullptr)
         std::shared_ptr<const void> owner;
     };
     const height_range range = range_of(sampler);
-    return {std::shared_ptr<const void>(new held{std::move(sampler), std::move(owner)}),
+    // With a function as deleter, all samplers share one type of control block.
+    const void* const made = new held{std::move(sampler), std::move(owner)};
+    return {std::shared_ptr<const void>(
+                made, +[](const void* to) { delete static_cast<const held*>(to); }),
             [](const void* from, const scanline& line, std::span<float> heights, std::span<type> types) {
                 static_cast<const held*>(from)->sampler.row(line, heights, types);
             },
@@ -113,7 +116,7 @@ template <class M>
 concept sampled = requires(const M& m) {
     sampler_of(m);
 };
-/// Was meant to be a model.
+/// A type with a part of the members of a model, which gets a readable error.
 template <class M>
 concept incomplete_model = !model<M> && (labelled<M> || sampled<M>);
 

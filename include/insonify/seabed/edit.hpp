@@ -1,4 +1,4 @@
-// Edits of a seabed: hills, furrows, ramps, deposits; moat.hpp has scour. sculpt.hpp applies them.
+// Edits of a seabed: hills, furrows, ramps, deposits; moat.hpp adds scour moats. sculpt.hpp applies them.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
@@ -129,7 +129,7 @@ inline ground_rect ground_of(const heap& e) {
     require_metres("heap.radius", e.radius);
     require_height("heap.level", e.level);
     require(e.slope >= 1e-3f && e.slope < 1e6f, "heap.slope", e.slope, "a slope from 0.001");
-    // The ground may be at any height; the search ends a hundred metres below the top.
+    // Bounds cover ground down to a hundred metres below the top.
     return rect_around({&e.centre, 1}, static_cast<double>(e.radius) + 100 / static_cast<double>(e.slope));
 }
 

@@ -9,9 +9,9 @@
 //     };
 //
 // `kind` is one of the library's labels or a label with properties. Seabeds of several labels write them in
-// `row(line, heights, types)` and list them in `legend()`. Where parts are worth computing once (wave vectors,
-// octaves), `prepare()` returns a sampler that has `row` and `range` in the model's stead. Optional: `sink_depth()`,
-// see there.
+// `row(line, heights, types)`, where `types` may be empty, and list them in `legend()`. Where parts are worth computing
+// once (wave vectors, octaves), `prepare()` returns a sampler that has `row` and `range` in the model's stead.
+// Optional: `sink_depth()`, see there.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
@@ -180,7 +180,7 @@ struct with_kind {
 /// @throws invalid_input for a range with an infinite end, as of a model that does not state its heights
 inline void require_finite(const height_range& range) {
     require(range.empty() || numeric::is_finite(range.highest - range.lowest), "range() of the seabed", range.highest,
-            "finite heights that it never leaves");
+            "finite heights that it never leaves (a model without `range()` states none)");
 }
 
 template <class S>

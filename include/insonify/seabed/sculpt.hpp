@@ -1,4 +1,5 @@
-// Sculpted seabeds: a base and a sequence of edits that raise, lower, flatten, smooth, ramp, stamp, heap or scour.
+// Sculpted seabeds: a base and a sequence of edits that raise, flatten, smooth, ramp, stamp, heap or dig
+// scour moats.
 //
 // An edit is a function of the position and of the height after the edits before it, so that a sculpted seabed stays
 // unbounded and independent of the grid. Outside an edit's bounds no bit changes.

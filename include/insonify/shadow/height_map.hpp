@@ -47,33 +47,6 @@ struct map_extent {
     }
 };
 
-/// The smallest extent that holds both.
-inline map_extent merge(const map_extent& a, const map_extent& b) {
-    map_extent both = a;
-    both.include({b.lowest.x, b.lowest.y, b.floor});
-    both.include({b.highest.x, b.highest.y, b.ceiling});
-    return both;
-}
-
-/// The extent of a mesh under a light; positions that aren't finite are passed over.
-template <executor_argument E = serial_executor>
-map_extent extent_of(const mesh_view& m, const affine& to_world, const light_frame& frame, E&& ex = {}) {
-    constexpr std::size_t grain = 16384;
-    insonify::detail::dynamic_array<map_extent> parts((m.positions.size() + grain - 1) / grain);
-    bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
-        map_extent part;
-        for (std::size_t i = first; i < last; ++i) {
-            const glm::dvec3 world = transform_point(to_world, glm::dvec3(m.positions[i]));
-            if (numeric::is_finite(world.x + world.y + world.z)) part.include(frame(world));
-        }
-        parts[first / grain] = part;
-    });
-    map_extent whole;
-    for (const map_extent& part : parts)
-        if (!part.empty()) whole = merge(whole, part);
-    return whole;
-}
-
 /// Vertex shader of height maps: from a mesh's coordinates to clip space, with w = 1.
 struct map_placement {
     glm::mat3 axes;

@@ -74,9 +74,6 @@ class map_occlusion {
         }
     }
 
-    /// The map of one caster.
-    const height_map& of(std::size_t caster) const { return maps_[caster]; }
-
   private:
     static light_frame parallel(const any_light& light) {
         if (const auto* from_nearby = std::get_if<point_light>(&light)) {

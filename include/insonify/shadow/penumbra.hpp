@@ -50,28 +50,6 @@ class penumbra_occlusion {
         divide(into);
     }
 
-    /// The same for many batches of at most `max_batch` points each, all of them at once.
-    template <executor E>
-    void test(std::span<const points> at, std::span<const results> into, E& ex) const {
-        lights_.front().blocked.test(at, into, ex);
-        std::size_t count = 0;
-        for (const points& some : at) count += some.size();
-        insonify::detail::uninitialized_array<float> lit(count);
-        insonify::detail::uninitialized_array<std::uint32_t> blocking(count);
-        detail::dynamic_array<results> one;
-        count = 0;
-        for (const points& some : at) {
-            one.push_back(
-                {std::span(lit).subspan(count, some.size()), std::span(blocking).subspan(count, some.size())});
-            count += some.size();
-        }
-        for (std::size_t i = 1; i < lights_.size(); ++i) {
-            lights_[i].blocked.test(at, std::span<const results>(one), ex);
-            ex.bulk(at.size(), [&](std::size_t k) { add(i, at[k], one[k], into[k]); });
-        }
-        for (const results& some : into) divide(some);
-    }
-
   private:
     /// One point of the light, above the horizon.
     struct sample {

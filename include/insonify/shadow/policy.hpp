@@ -57,7 +57,7 @@ struct points {
     std::span<const double> x, y, z;          ///< metres
     std::span<const std::uint32_t> mesh;      ///< index of the caster that a point lies on, or invalid_id
     std::span<const std::uint32_t> triangle;  ///< of that caster; it does not block its own points
-    std::uint32_t casters = invalid_id;       ///< only casters with a lower index are tested
+    std::uint32_t casters = invalid_id;       ///< a test may skip casters from this index on
     bool face_light = true;                   ///< facets of the points face the light; if not, `lit` is ignored
 
     INSONIFY_MEMBER std::size_t size() const { return x.size(); }

@@ -56,25 +56,17 @@ struct labels {
     }
 };
 
+namespace detail::inline INSONIFY_FLAGS {
+
+/// @throws invalid_input for more targets than labels can number
+inline void require_numbered_targets(const scene& s) {
+    require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
 /// Requests no labels: none are stored or computed.
 struct no_labels {};
-
-inline namespace INSONIFY_FLAGS {
-
-/// 255 where a target is visible, 0 elsewhere.
-inline image<std::uint8_t> target_mask(const labels& l, std::uint16_t instance) {
-    return map_pixels(l.instance, [=](std::uint16_t i) { return static_cast<std::uint8_t>(i == instance ? 255 : 0); });
-}
-
-/// 255 where the seabed is in a target's shadow, 0 elsewhere, on the target itself too.
-inline image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance) {
-    image<std::uint8_t> mask(l.shadow.width(), l.shadow.height());
-    for (std::size_t i = 0; i < mask.size(); ++i)
-        mask.pixels()[i] = l.shadow.pixels()[i] == instance && l.instance.pixels()[i] == labels::no_instance ? 255 : 0;
-    return mask;
-}
-
-}  // namespace INSONIFY_FLAGS
 
 /// The class of every pixel.
 struct class_map {
@@ -82,10 +74,33 @@ struct class_map {
     image<std::uint16_t> classes;    ///< 0 for no target, 1 for names[0], ...
 };
 
-inline namespace INSONIFY_FLAGS {
+inline namespace INSONIFY_ONCE {
+
+/// 255 where a target is visible, 0 elsewhere.
+INSONIFY_FUNCTION image<std::uint8_t> target_mask(const labels& l, std::uint16_t instance);
+
+/// 255 where the seabed is in a target's shadow, 0 elsewhere, on the target itself too.
+INSONIFY_FUNCTION image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance);
 
 /// The class of every pixel that shows a target.
-inline class_map classes_of(const labels& l) {
+INSONIFY_FUNCTION class_map classes_of(const labels& l);
+
+/// Sets the bounding boxes and areas of the listed targets from the images.
+INSONIFY_FUNCTION void measure_targets(labels& l);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION image<std::uint8_t> target_mask(const labels& l, std::uint16_t instance) {
+    return map_pixels(l.instance, [=](std::uint16_t i) { return static_cast<std::uint8_t>(i == instance ? 255 : 0); });
+}
+
+INSONIFY_FUNCTION image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance) {
+    image<std::uint8_t> mask(l.shadow.width(), l.shadow.height());
+    for (std::size_t i = 0; i < mask.size(); ++i)
+        mask.pixels()[i] = l.shadow.pixels()[i] == instance && l.instance.pixels()[i] == labels::no_instance ? 255 : 0;
+    return mask;
+}
+
+INSONIFY_FUNCTION class_map classes_of(const labels& l) {
     class_map map;
     detail::dynamic_array<std::uint16_t> class_of{0};  // by instance
     for (const target_label& t : l.targets) {
@@ -97,14 +112,6 @@ inline class_map classes_of(const labels& l) {
     return map;
 }
 
-}  // namespace INSONIFY_FLAGS
-
-inline namespace INSONIFY_ONCE {
-
-/// Sets the bounding boxes and areas of the listed targets from the images.
-INSONIFY_FUNCTION void measure_targets(labels& l);
-
-#if INSONIFY_BODIES
 INSONIFY_FUNCTION void measure_targets(labels& l) {
     const auto include = [](rect& box, std::int64_t& area, int x, int y) {
         if (area++ == 0) box = {x, y, x, y};

@@ -29,7 +29,7 @@ inline shadow::any_light light_of(const overhead& rig) {
     const overhead_geometry view(rig);
     shadow::any_light light = detail::light_in_rig(view);
     if (auto* parallel = std::get_if<shadow::directional_light>(&light)) {
-        parallel->azimuth += static_cast<double>(rig.yaw);
+        parallel->azimuth += numeric::widened(rig.yaw);
     } else {
         glm::dvec3& position = std::get<shadow::point_light>(light).position;
         position = numeric::product(glm::transpose(view.rig_from({}).linear), position) + glm::dvec3(rig.position, 0);
@@ -56,12 +56,14 @@ class scene_occlusion {
     template <class Shadow, executor E>
     scene_occlusion(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
                     const Shadow& policy, E& ex)
-        : centre_((require_box(within), require_light(light), within.box.centre())),
+        : centre_(
+              (detail::require_numbered_targets(s), require_box(within), require_light(light), within.box.centre())),
           shapes_(shapes_of(s, light, within, shadow::radius_of(policy), ex)),
           targets_(s.targets.size()),
           built_(policy.build(casters(), from_centre(light), local(within), ex)) {}
 
-    /// @param at  in the world, within the bounds
+    /// @param at  in the world, within the bounds. This is not checked: the seabed is not sampled for points outside,
+    ///            which may come out lit
     template <executor_argument E = serial_executor>
     occlusion_results test(std::span<const glm::dvec3> at, E&& ex = {}) const {
         occlusion_results all{std::vector<float>(at.size()), std::vector<std::uint16_t>(at.size())};
@@ -189,7 +191,8 @@ class scene_occlusion {
 /// @param within  region of the points, and sampling of the seabed
 /// @param policy  any shadow policy
 /// @param ex      runs it; the result is the same for any executor
-/// @throws invalid_input for bounds that are empty or not finite, or a light or a policy out of range
+/// @throws invalid_input for bounds that are empty or not finite, a light or a policy out of range, or more than 65534
+///         targets
 template <shadow::casting_policy Shadow = shadow::exact, executor_argument E = serial_executor>
 auto occlusion_of(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
                   const Shadow& policy = {}, E&& ex = {}) {

@@ -36,7 +36,8 @@ struct scene {
     /// Adds a mesh, a shared mesh, or a shape with a `to_mesh`: cube, cylinder, cone, sphere, your own. Instances are
     /// numbered from 1. A mesh without normals gets smooth ones, also across sharp edges whose triangles share
     /// vertices; `with_creases` keeps those sharp. To draw one mesh many times, make a `shared_mesh` once and add it
-    /// repeatedly.
+    /// repeatedly. Renderers take up to 65534 targets.
+    /// @returns the target; the next call may move it
     /// @throws invalid_input for a mesh whose indices or normals don't match its positions
     template <class Shape>
     INSONIFY_MEMBER target& add(Shape&& shape, const pose& placement, std::string class_name,
@@ -54,11 +55,23 @@ struct scene {
     }
 };
 
-inline namespace INSONIFY_FLAGS {
+inline namespace INSONIFY_ONCE {
 
 /// @throws invalid_input for a material whose reflectivity is negative or not finite. Renderers check poses, meshes and
 ///         seabeds
-inline void validate(const scene& s) {
+INSONIFY_FUNCTION void validate(const scene& s);
+
+/// The material of each label: the scene's, or that of the seabed's model where the scene sets none.
+/// @throws invalid_input for a reflectivity of the seabed that is negative or not finite
+INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s);
+
+/// The same pose, lowered or raised so that one vertex touches the seabed and none is below it. `burial` then sinks it.
+/// @param shape  a mesh, a shared mesh, or a view of one; of at least one position
+/// @throws invalid_input for a shape without positions, or a pose out of range
+INSONIFY_FUNCTION pose rest_on(const insonify::seabed::any& seabed, const mesh_view& shape, pose placement);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION void validate(const scene& s) {
     const auto check = [](const material& m, const char* list, std::size_t i, const char* member) {
         if (m.reflectivity >= 0 && numeric::is_finite(m.reflectivity)) return;
         std::string name = list;  // appended, because g++ 12 warns of "[" + to_text(i) at -O3
@@ -73,9 +86,7 @@ inline void validate(const scene& s) {
         check(s.targets[i].surface, "scene.targets", i, "].surface.reflectivity");
 }
 
-/// The material of each label: the scene's, or that of the seabed's model where the scene sets none.
-/// @throws invalid_input for a reflectivity of the seabed that is negative or not finite
-inline bottom_materials resolved_bottom(const scene& s) {
+INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s) {
     bottom_materials all = s.bottom;
     for (const insonify::seabed::type_properties& t : s.seabed.legend()) {
         detail::require(t.reflectivity >= 0 && numeric::is_finite(t.reflectivity), "type_properties.reflectivity",
@@ -89,10 +100,7 @@ inline bottom_materials resolved_bottom(const scene& s) {
     return all;
 }
 
-/// The same pose, lowered or raised so that one vertex touches the seabed and none is below it. `burial` then sinks it.
-/// @param shape  of at least one position
-/// @throws invalid_input for a shape without positions, or a pose out of range
-inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose placement) {
+INSONIFY_FUNCTION pose rest_on(const insonify::seabed::any& seabed, const mesh_view& shape, pose placement) {
     detail::require(!shape.positions.empty(), "shape.positions.size()", shape.positions.size(), "at least 1");
     detail::require_finite("pose.burial", placement.burial);
     pose bare = placement;
@@ -108,8 +116,9 @@ inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose
     if (numeric::is_finite(clearance)) placement.position.z -= clearance;
     return placement;
 }
+#endif
 
-}  // namespace INSONIFY_FLAGS
+}  // namespace INSONIFY_ONCE
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -1,8 +1,9 @@
 // Speckle by seabed label.
 //
 // The fluctuation of a bin is a function of (seed, side, ping number, bin) alone: recordings made in pieces fit
-// together, and the two sides are independent. The laws are those of the speckle filters (filter/echo_noise.hpp), for
-// recordings without a largest value.
+// together if `frame.rows.first` is each piece's first ping (`record` counts from 0), and the two sides are
+// independent. The laws are those of the speckle filters (filter/echo_noise.hpp), for recordings without a largest
+// value.
 #pragma once
 
 #include <insonify/core/executor.hpp>

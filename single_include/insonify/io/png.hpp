@@ -45,6 +45,7 @@ inline void write_png_bytes(const std::string& path, const void* pixels, int wid
 inline namespace INSONIFY_FLAGS {
 
 /// Writes an 8-bit gray or colour PNG, all or nothing. Floats are quantized: 1 is white, to the nearest of 256 levels.
+/// For labels::instance, which has 16 bits, see io/netpbm.hpp, or map its values to 8. The library reads no PNG.
 /// stb's own switches (`stbi_write_png_compression_level` and others) apply.
 /// @throws invalid_input for an image without pixels or above 2^29 bytes; io_error, naming the file, if it can't be
 ///         written

@@ -6,7 +6,6 @@
 #include <insonify/sonar/overhead/render.hpp>
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <thread>
 #include <vector>

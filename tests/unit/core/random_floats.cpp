@@ -3,7 +3,6 @@
 #include <insonify/core/simd/random_lanes.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <vector>
 

@@ -2,7 +2,6 @@
 #include <insonify/core/random.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "../../catch.hpp"

@@ -2,7 +2,6 @@
 #include <insonify/core/random.hpp>
 #include <insonify/core/thread_pool.hpp>
 
-#include <bit>
 #include <limits>
 
 #include "../../catch.hpp"

@@ -2,7 +2,6 @@
 #include <insonify/core/random.hpp>
 #include <insonify/geometry/transform.hpp>
 
-#include <array>
 #include <limits>
 
 #include "../../catch.hpp"

@@ -2,7 +2,6 @@
 #include <insonify/core/random.hpp>
 
 #include <array>
-#include <limits>
 
 #include "../../catch.hpp"
 #include "pixel_space.hpp"

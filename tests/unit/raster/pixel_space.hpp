@@ -5,7 +5,6 @@
 #include <insonify/raster/draw.hpp>
 
 #include <cmath>
-#include <vector>
 
 #include <glm/vec2.hpp>
 

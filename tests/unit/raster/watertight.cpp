@@ -1,8 +1,6 @@
 // Meshes without T-junctions have no holes and no pixel covered twice, under any clipping and snapping.
 #include <insonify/core/random.hpp>
 
-#include <array>
-
 #include "../../catch.hpp"
 #include "pixel_space.hpp"
 

@@ -19,7 +19,7 @@ namespace {
 using lit::radians;
 
 shadow::height_map map_of(const in::mesh& m, const shadow::light_frame& light, double texel) {
-    shadow::height_map map(light, shadow::extent_of(m, {}, light), texel, 16384);
+    shadow::height_map map(light, shadow::extent_of(bounds(m), {}, light), texel, 16384);
     map.cast(m, {});
     return map;
 }
@@ -171,7 +171,7 @@ TEST_CASE("PCF takes points beyond the map's border as lit") {
 TEST_CASE("A map is the same for any executor, and an empty one leaves everything lit") {
     const shadow::light_frame light({1, radians(10)});
     const in::mesh m = standing_cube();
-    const auto extent = shadow::extent_of(m, {}, light);
+    const auto extent = shadow::extent_of(bounds(m), {}, light);
     shadow::height_map serial(light, extent, 0.02), parallel(light, extent, 0.02);
     serial.cast(m, {});
     in::thread_pool pool(3);
@@ -180,13 +180,13 @@ TEST_CASE("A map is the same for any executor, and an empty one leaves everythin
         for (int i = 0; i < serial.columns(); ++i) REQUIRE(serial(i, j) == parallel(i, j));
 
     CHECK(lit_on_ground(shadow::height_map{}, 0, 0) == 1);
-    CHECK(shadow::extent_of({}, {}, light).empty());
+    CHECK(shadow::extent_of(in::bounding_box{}, {}, light).empty());
     CHECK(shadow::height_map(light, {}, 0.1).empty());
 }
 
 TEST_CASE("A map that would exceed its largest size gets coarser texels") {
     const shadow::light_frame light({0, radians(1)});
-    const shadow::height_map map(light, shadow::extent_of(standing_cube(), {}, light), 1e-4, 512);
+    const shadow::height_map map(light, shadow::extent_of(bounds(standing_cube()), {}, light), 1e-4, 512);
     CHECK(map.columns() <= 512);
     CHECK(map.rows() <= 512);
     CHECK(map.texel() > 1e-4);

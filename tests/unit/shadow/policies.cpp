@@ -179,32 +179,6 @@ TEST_CASE("Samples of a penumbra behind a facet's plane do not light it") {
           Approx(visible_fraction).margin(0.01));
 }
 
-TEST_CASE("A penumbra is the same point by point and for many batches at once") {
-    const in::mesh cube = to_mesh(in::cube{});
-    const shadow::caster casters[] = {caster_of(cube, at({0, 0, 0.5}))};
-    in::random_sequence random(5);
-    lit::point_list points;
-    for (int i = 0; i < 3000; ++i) points.add({random.uniform(-1, 4), random.uniform(-2, 2), 0});
-    in::serial_executor ex;
-    const auto built = shadow::penumbra{.diameter = 0.2f}.build(std::span<const shadow::caster>(casters),
-                                                                parallel(20, 30), {around}, ex);
-    const lit::answers one = lit::test(built, points);
-    lit::answers other(points.size());
-    const shadow::points all = points;
-    const shadow::results into = other;
-    const shadow::points at[] = {
-        {all.x.first(1000), all.y.first(1000), all.z.first(1000), all.mesh.first(1000), all.triangle.first(1000)},
-        {all.x.subspan(1000), all.y.subspan(1000), all.z.subspan(1000), all.mesh.subspan(1000),
-         all.triangle.subspan(1000)}};
-    const shadow::results to[] = {{into.lit.first(1000), into.caster.first(1000)},
-                                  {into.lit.subspan(1000), into.caster.subspan(1000)}};
-    built.test(std::span<const shadow::points>(at), std::span<const shadow::results>(to), ex);
-    CHECK(one.lit == other.lit);
-    CHECK(one.caster == other.caster);
-    CHECK(std::count_if(one.lit.begin(), one.lit.end(),
-                        [](float visible_fraction) { return visible_fraction > 0 && visible_fraction < 1; }) > 100);
-}
-
 TEST_CASE("Parameters out of range are refused by name, and so are point lights by maps") {
     const shadow::caster casters[] = {caster_of(sheet(0))};
     const auto build = [&](const auto& policy, const shadow::any_light& light) {

@@ -40,7 +40,7 @@ displacement measured(double elevation, double azimuth, double slope, double tex
                 plate.positions.emplace_back((rim + back) * travel.x - side * travel.y,
                                              (rim + back) * travel.y + side * travel.x, 1);
         plate.triangles = {{0, 2, 3}, {0, 3, 1}};
-        shadow::map_extent extent = shadow::extent_of(plate, {}, light);
+        shadow::map_extent extent = shadow::extent_of(in::bounds(plate), {}, light);
         extent.lowest -= 5 * texel * draw.uniform();
         shadow::height_map map(light, extent, texel, 32768);
         map.cast(plate, {});

@@ -10,7 +10,6 @@
 #include <insonify/sonar/side_scan/swath.hpp>
 
 #include <cmath>
-#include <memory>
 
 #include "../../catch.hpp"
 

@@ -135,7 +135,8 @@ std::vector<std::uint64_t> count_bands(image_view<const Pixel> source, int bins,
     const auto width = static_cast<std::size_t>((std::max)(source.width(), 1));
     const std::size_t max_rows = (std::size_t{1} << 31) / width, min_rows = counter::min_pixels / width + 1;
     const std::size_t grain = (std::max)((std::min)(rows / 16 + 1, max_rows), min_rows);
-    dynamic_array<dynamic_array<std::uint64_t>> bands((rows + grain - 1) / grain);
+    const auto size = static_cast<std::size_t>(bins);
+    dynamic_array<std::uint64_t> bands((rows + grain - 1) / grain * size);
     bulk_ranges(ex, rows, grain, [&](std::size_t first, std::size_t last) {
         counter own = make();
         for (std::size_t y = first; y < last; ++y) {
@@ -143,13 +144,11 @@ std::vector<std::uint64_t> count_bands(image_view<const Pixel> source, int bins,
             for (int x = 0; x < source.width(); x += run_length)
                 own.add(row.data() + x, (std::min)(run_length, source.width() - x));
         }
-        dynamic_array<std::uint64_t>& band = bands[first / grain];
-        band.resize(static_cast<std::size_t>(bins));
-        own.add_to(band);
+        own.add_to({bands.data() + first / grain * size, size});
     });
-    std::vector<std::uint64_t> sums(static_cast<std::size_t>(bins));
-    for (const dynamic_array<std::uint64_t>& band : bands)
-        for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += band[i];
+    std::vector<std::uint64_t> sums(size);
+    for (std::size_t band = 0; band < bands.size(); band += size)
+        for (std::size_t i = 0; i < size; ++i) sums[i] += bands[band + i];
     return sums;
 }
 

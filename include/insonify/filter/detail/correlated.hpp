@@ -1,4 +1,4 @@
-// Correlated normal draws: white noise through a separable filter, row by row.
+// Correlated draws: white noise through a separable filter, row by row.
 #pragma once
 
 #include <insonify/core/detail/correlation.hpp>
@@ -6,6 +6,8 @@
 #include <insonify/core/detail/tap_kernels.hpp>
 #include <insonify/filter/detail/noise_pass.hpp>
 #include <insonify/filter/parameter.hpp>
+
+#include <optional>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -18,8 +20,9 @@ inline void require_correlation(const char* name, const correlation_length& leng
     for (const float pixels : {length.x, length.y}) require_range(name, pixels, 0, 16, "0 to 16 pixels");
 }
 
-/// Standard normal draws, one for each pixel and field, correlated along rows and columns. A draw depends on the
-/// pixel's position alone. Consecutive rows reuse the blurred rows that both need.
+/// Draws, one for each pixel and field, correlated along rows and columns. A draw depends on the pixel's position
+/// alone. Consecutive rows reuse the blurred rows that both need.
+template <class Draws>
 class correlated_draws {
   public:
     /// @param x, y  taps of the filters along rows and columns
@@ -77,7 +80,7 @@ class correlated_draws {
         dynamic_array<float> white;
         for (int x = run.x - reach; x < run.x + run.count + reach; x += run_length) {
             const int count = (std::min)(run_length, run.x + run.count + reach - x);
-            const float* const draws = white_draws<normal_draws>(buffer, noise_, field, {x, run.y, count, run.channel});
+            const float* const draws = white_draws<Draws>(buffer, noise_, field, {x, run.y, count, run.channel});
             white.append({draws, static_cast<std::size_t>(count)});
         }
         dispatch(taps_along_row{taps_x_, white.data() + reach, 1, into, static_cast<std::size_t>(run.count)},
@@ -90,6 +93,36 @@ class correlated_draws {
     std::size_t last_ = 0;
     dynamic_array<const float*> rows_;
 };
+
+/// Draws that are independent until `correlate` is called.
+template <class Draws>
+class field_draws {
+  public:
+    explicit field_draws(noise_key noise) : noise_(noise) {}
+    /// Correlated if the length is not 0.
+    field_draws(noise_key noise, const correlation_length& length) : field_draws(noise) {
+        if (length.x > 0 || length.y > 0)
+            correlate(field_taps(static_cast<double>(length.x)), field_taps(static_cast<double>(length.y)));
+    }
+
+    /// @param x, y  taps of the filters along rows and columns
+    void correlate(dynamic_array<float> x, dynamic_array<float> y) {
+        correlated_.emplace(noise_, std::move(x), std::move(y));
+    }
+    bool is_correlated() const { return correlated_.has_value(); }
+
+    /// The draws of a run; they lie in `buffer`.
+    const float* row(draw_buffer& buffer, std::uint32_t field, const noise_run& run) {
+        if (!correlated_) return white_draws<Draws>(buffer, noise_, field, run);
+        correlated_->row(buffer, field, run);
+        return buffer;
+    }
+
+  private:
+    noise_key noise_;
+    std::optional<correlated_draws<Draws>> correlated_;
+};
+using normal_fields = field_draws<normal_draws>;
 
 }  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI

@@ -50,25 +50,30 @@ struct echo_factor {
     }
 };
 
-/// How intensities are drawn. It depends on the filter's type and not on its parameters, so that a map of equal numbers
-/// gives the noise of that number.
-enum class echo_draw { exponential, gamma, rice };
+/// How intensities are drawn: `by_looks`, exponential for one look and else gamma. It depends on the filter's type and
+/// not on its maps of parameters, so that a map of equal numbers gives the noise of that number.
+enum class echo_draw { exponential, gamma, by_looks, rice };
 
 /// Statistics of an intensity: the three numbers of a speckle_law, by pixel.
 struct echo_statistics {
-    const char* name;  ///< of the filter's own parameter
-    echo_draw draw;
+    const char* name;       ///< of the filter's own parameter
     parameter looks = 1;    ///< 0.01 to 1e6; 1 unless they are drawn as gamma
     parameter texture = 0;  ///< 0: none
     parameter steady = 0;
 };
 
 /// Law of a noise_pass that multiplies pixels by random intensities, or by their square roots.
+template <echo_draw Draw>
 class echo_law {
   public:
     echo_law(noise_key noise, noise_key texture_noise, echo_statistics statistics, echo of,
              const correlation_length& length)
-        : noise_(noise), texture_noise_(texture_noise), statistics_(std::move(statistics)), of_(of) {
+        : noise_(noise),
+          texture_noise_(texture_noise),
+          fields_(noise),
+          texture_field_(texture_noise),
+          statistics_(std::move(statistics)),
+          of_(of) {
         const parameter &looks = statistics_.looks, &shape = statistics_.texture, &steady = statistics_.steady;
         is_constant_ = looks.is_constant() && shape.is_constant() && steady.is_constant();
         if (is_constant_ && of == echo::amplitude) last_scale_ = scale_of(looks.value(), shape.value(), steady.value());
@@ -112,48 +117,47 @@ class echo_law {
             return field_taps(texture_ ? field_length(static_cast<double>(pixels), intensity)
                                        : field_length(static_cast<double>(pixels), speckle));
         };
-        correlated_.emplace(noise_, taps(length.x), taps(length.y));
-        if (texture_) correlated_texture_.emplace(texture_noise_, taps(length.x), taps(length.y));
+        fields_.correlate(taps(length.x), taps(length.y));
+        if (texture_) texture_field_.correlate(taps(length.x), taps(length.y));
     }
 
     /// Intensities of mean one without texture.
     float* draw(draw_buffer& buffer, const noise_run& run) {
-        if (correlated_ || statistics_.draw == echo_draw::rice) {
-            fields(buffer, correlated_ ? static_cast<int>(statistics_.looks.value()) : 1, run);
+        if (Draw == echo_draw::rice || fields_.is_correlated()) {
+            average_looks(buffer, fields_.is_correlated() ? static_cast<int>(statistics_.looks.value()) : 1, run);
             return buffer;
         }
-        if (statistics_.draw == echo_draw::exponential) return white_draws<exponential_draws>(buffer, noise_, 0, run);
-        std::fill_n(buffer, run.count, 1.0f);
-        gamma(buffer, statistics_.looks, noise_, run);
+        if constexpr (Draw == echo_draw::exponential || Draw == echo_draw::by_looks) {
+            if (Draw == echo_draw::exponential || statistics_.looks.value() == 1)
+                return white_draws<exponential_draws>(buffer, noise_, 0, run);
+        }
+        if constexpr (Draw == echo_draw::gamma || Draw == echo_draw::by_looks) {
+            std::fill_n(buffer, run.count, 1.0f);
+            gamma(buffer, statistics_.looks, noise_, run);
+        }
         return buffer;
     }
 
     /// Averages looks of complex normal fields.
-    void fields(float* intensity, int looks, const noise_run& run) {
-        float steady[run_length], re[run_length + 64], im[run_length + 64];
+    void average_looks(float* intensity, int looks, const noise_run& run) {
+        float steady[run_length];
+        draw_buffer buffers[2];
         statistics_.steady.row(steady, run.count, run.x, run.y);
         std::fill_n(intensity, run.count, 0.0f);
         for (int look = 0; look < looks; ++look) {
-            field(re, static_cast<std::uint32_t>(2 * look), run);
-            field(im, static_cast<std::uint32_t>(2 * look + 1), run);
+            const auto field = static_cast<std::uint32_t>(2 * look);
+            const float* const re = fields_.row(buffers[0], field, run);
+            const float* const im = fields_.row(buffers[1], field + 1, run);
             constexpr float root_half = 0.70710678f;
             for (int i = 0; i < run.count; ++i)
                 intensity[i] += look_intensity(re[i] * root_half, im[i] * root_half, steady[i], looks);
         }
     }
-    void field(float (&into)[run_length + 64], std::uint32_t number, const noise_run& run) {
-        if (correlated_) {
-            correlated_->row(into, number, run);
-        } else {
-            const float* const draws = white_draws<normal_draws>(into, noise_, number, run);
-            std::copy(draws, draws + run.count, static_cast<float*>(into));
-        }
-    }
 
     void texture(float* intensity, const noise_run& run) {
         if (texture_) {
-            float normal[run_length + 64];
-            correlated_texture_->row(normal, 0, run);
+            draw_buffer buffer;
+            const float* const normal = texture_field_.row(buffer, 0, run);
             for (int i = 0; i < run.count; ++i) intensity[i] *= (*texture_)(normal[i]);
             return;
         }
@@ -179,8 +183,8 @@ class echo_law {
 
     /// 1 over the mean amplitude of a unit intensity.
     float scale_of(float looks, float shape, float steady) const {
-        const double speckle = statistics_.draw == echo_draw::rice ? mean_of_rice(static_cast<double>(steady))
-                                                                   : mean_root_of_gamma(static_cast<double>(looks));
+        const double speckle = Draw == echo_draw::rice ? mean_of_rice(static_cast<double>(steady))
+                                                       : mean_root_of_gamma(static_cast<double>(looks));
         const double relief = shape > 0 ? mean_root_of_gamma(static_cast<double>(shape)) : 1;
         return static_cast<float>(1 / (speckle * relief));
     }
@@ -200,9 +204,9 @@ class echo_law {
     }
 
     noise_key noise_, texture_noise_;
+    normal_fields fields_, texture_field_;  ///< of Rician and of correlated speckle
     echo_statistics statistics_;
     echo of_;
-    std::optional<correlated_draws> correlated_, correlated_texture_;
     std::optional<gamma_texture> texture_;  ///< where it is correlated
     bool is_constant_ = false;
     std::array<float, 3> last_{-1, -1, -1};
@@ -210,10 +214,11 @@ class echo_law {
     float scale_[run_length];
 };
 
-inline noise_pass<echo_law> echo_pass(noise_stream stream, std::uint64_t seed, std::uint32_t frame,
-                                      echo_statistics statistics, echo of, const correlation_length& length) {
+template <echo_draw Draw>
+noise_pass<echo_law<Draw>> echo_pass(noise_stream stream, std::uint64_t seed, std::uint32_t frame,
+                                     echo_statistics statistics, echo of, const correlation_length& length) {
     return noise_pass(
-        echo_law({seed, stream, frame}, {seed, noise_stream::texture, frame}, std::move(statistics), of, length));
+        echo_law<Draw>({seed, stream, frame}, {seed, noise_stream::texture, frame}, std::move(statistics), of, length));
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS

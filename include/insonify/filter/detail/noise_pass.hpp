@@ -190,6 +190,16 @@ float* white_draws(draw_buffer& buffer, const noise_key& noise, std::uint32_t fi
     return buffer + before;
 }
 
+/// Draws of filters whose noise has no correlation length.
+template <class Draws>
+struct independent_draws {
+    noise_key noise;
+
+    const float* row(draw_buffer& buffer, std::uint32_t field, const noise_run& run) const {
+        return white_draws<Draws>(buffer, noise, field, run);
+    }
+};
+
 /// to = clip(rule(clip(from), draw, scale)).
 template <class Rule>
 struct rule_kernel {

@@ -1,4 +1,4 @@
-// Furrows of trawl boards: long, nearly straight, in a few directions.
+// Furrows of trawl doors: long, nearly straight, in a few directions.
 //
 // Furrows of one direction run in parallel, slightly meandering strips. A strip holds one furrow with gaps along it.
 // The spoil lies in a low berm on either side.

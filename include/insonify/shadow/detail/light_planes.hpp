@@ -10,7 +10,6 @@
 #include <insonify/shadow/light.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 INSONIFY_ARITHMETIC_BEGIN

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <limits>
 #include <utility>
-#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 

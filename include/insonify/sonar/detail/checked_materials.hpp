@@ -15,7 +15,7 @@ namespace detail::inline INSONIFY_FLAGS {
 template <class Options>
 bottom_materials checked_materials(const scene& s, const Options& options) {
     validate(s);
-    require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
+    require_numbered_targets(s);
     require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "0 metres or more");
     validate_if_possible(options.law);
     return resolved_bottom(s);

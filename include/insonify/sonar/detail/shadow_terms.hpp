@@ -14,8 +14,7 @@ namespace detail::inline INSONIFY_FLAGS {
 /// The light of a rig, in its frame.
 inline shadow::any_light light_in_rig(const overhead_geometry& view) {
     if (view.has_near_light()) return shadow::point_light{view.light_position()};
-    return shadow::directional_light{static_cast<double>(view.rig().light_azimuth),
-                                     static_cast<double>(view.rig().grazing)};
+    return shadow::directional_light{numeric::widened(view.rig().light_azimuth), numeric::widened(view.rig().grazing)};
 }
 
 /// The label of a caster in labels::shadow. Targets are the first casters.

@@ -66,6 +66,8 @@ struct visibility {
 
 namespace detail::inline INSONIFY_FLAGS {
 
+// Undefined where a program of the compiled form uses a shadow policy or law of its own without including
+// sonar/overhead/render.hpp.
 template <class Shadow, class Labels, class Law, depth_precision Depth>
 frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
                     executor_ref ex);

@@ -44,6 +44,10 @@ inline namespace INSONIFY_FLAGS {
 
 /// Records a track of any shape, with yaw, pitch, roll and heave of every ping.
 ///
+/// Pings are numbered from 0: set `rows.first` of a part of a longer track before `with_speckle` or `with_tone`. A
+/// `horizontal_beam` blurs over the given pings alone, so parts of a track need more pings at their ends, to be
+/// dropped.
+///
 /// @param s        the seabed and its targets
 /// @param track    pings in order; row i of the result is ping i
 /// @param rig      ranges, side and ping spacing; its own track is ignored. Its altitude is nominal: the default `cell`
@@ -79,7 +83,8 @@ render_stats record_into(image_view<float> into, const scene& s, std::span<const
     return recorded.stats;
 }
 
-/// Records the straight track of a rig, in slant or ground range. Row i is ping i. The other parameters are those of
+/// Records the straight track of a rig, in slant or ground range. Row i is ping i. For a `horizontal_beam`, the track
+/// is continued beyond its ends. The other parameters are those of
 /// `record`.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>

@@ -25,7 +25,7 @@ class hull_lines {
           plating_(static_cast<double>(h.plating)),
           collapse_(static_cast<double>(h.collapse)),
           is_transom_(h.stern == stern_type::transom),
-          // The formula's constant scales with ships; for models and giants all of it follows the length.
+          // The standard sheer of load lines, L/3 + 10; below 40 m the 10 becomes L/4, so that models keep the shape.
           sheer_(static_cast<double>(h.sheer) * 0.05 * (length_ / 3 + (std::min)(10.0, length_ / 4))),
           key_(stream_key(h.seed, 0x68756C6C)) {}
 

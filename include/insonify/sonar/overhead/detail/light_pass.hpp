@@ -15,10 +15,9 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// A mesh as a caster, and which of its triangles may be skipped for points that the camera sees.
 ///
-/// A ray from a point outside of a closed surface crosses it inwards as often as outwards on its way to the light, and
-/// inwards means through a triangle that faces away from the light: if anything blocks it, such a one does. What a
-/// camera outside of the surface sees lies outside. Of a heightfield the same holds for its own points if camera and
-/// light are above it, because over a convex ground a ray leaves it at most through the air.
+/// A ray that starts outside of a closed mesh and hits it enters it through a triangle that faces away from the light,
+/// so triangles that face the light may be skipped. What a camera outside of the mesh sees lies outside. The same holds
+/// for a heightfield's own points if camera and light are above it: rays leave its bounds above the surface.
 inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh& m) {
     surface seen;
     seen.to_rig = m.to_rig;
@@ -50,7 +49,7 @@ struct light_arrays {
     }
 };
 
-/// Points that face the light concern all casters; of those that face away, shadows only name targets.
+/// Points that face the light concern all casters; those that face away only need the targets, for labels.
 /// @param targets  casters numbered below this are targets
 inline shadow::points batch(shadow::points all, bool face_light, std::uint32_t targets) {
     if (!face_light) all.casters = targets;

@@ -1,4 +1,4 @@
-// From a visibility buffer to points: where the surfaces lie that pixels show, and which of them face the light.
+// Computes the surface points of undecided pixels, and whether each faces the light.
 //
 // The point is where the ray through the pixel's centre meets the plane of the pixel's triangle, in doubles, held to
 // the triangle: rounding to sub-pixels may show a triangle beside its edge. Everything is computed in the mesh's own
@@ -48,8 +48,8 @@ class point_list {
   public:
     std::size_t facing = 0, averted = 0;
 
-    /// @param room         of as many points as may come
-    /// @param first, last  the part of it
+    /// @param room         the batch to fill
+    /// @param first, last  the range of it for this list
     point_list(point_batch& room, std::size_t first, std::size_t last) : room_(&room), first_(first), last_(last) {}
 
     std::size_t size() const { return facing + averted; }
@@ -111,7 +111,7 @@ struct point_kernel {
     const point_finder& from;
     std::span<const shown_pixel> pixels;
     bool has_near_light;
-    bool wants_averted;
+    bool includes_averted;
     const rect& box;      ///< the tile's pixels
     std::uint32_t pitch;  ///< pixels from one row of the picture to the next
     point_list& points;
@@ -240,7 +240,7 @@ struct point_kernel {
         });
         store(facing, faces);
         for (std::size_t k = 0; k < count; ++k) {
-            if (facing[k] == 0 && !wants_averted) continue;
+            if (facing[k] == 0 && !includes_averted) continue;
             const shown_pixel& shown = pixels[start + k];
             points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], s.caster, shown.triangle,
                        static_cast<std::uint32_t>(box.y0 + shown.row) * pitch +
@@ -249,12 +249,12 @@ struct point_kernel {
         }
     }
 
-    /// Facets whose sine of the angle to the light is below this face away: vertices are rounded to 2^-24, and facets
+    /// Facets at a smaller sine to the light count as facing away: vertices are rounded to 2^-24, and facets
     /// parallel to the light up to that error are dark.
     static constexpr double grazed = 0x1p-22;
 
-    /// Points are kept off the edges of their triangle by this share of it: a neighbour that rises towards the light
-    /// touches a point on their edge, and what touches a point doesn't block it.
+    /// Points keep this barycentric distance from the edges of their triangle: a point on an edge would lie in the
+    /// adjacent triangle, too, which then would not block it.
     static constexpr double border = 0x1p-20;
 
     /// Rounding to sub-pixels may show a triangle beside its edge; one seen from its edge gives NaN or infinity.

@@ -35,7 +35,8 @@ class sampled_bottom {
         const auto along = [&](int axis) {
             const double first = static_cast<double>(numeric::floor_to_int(ground.lower[axis] / spacing + 1e-6));
             const double count = 1 - static_cast<double>(numeric::floor_to_int(-ground.upper[axis] / spacing)) - first;
-            require(count <= 1 << 20, "vertices of the seabed along an axis", count, "at most 2^20: less `reach`");
+            require(count <= 1 << 20, "vertices of the seabed along an axis", count,
+                    "at most 2^20; reduce `reach` or enlarge `cell`");
             first_[axis] = static_cast<int>(first);
             return static_cast<int>((std::max)(2.0, count));
         };

@@ -32,7 +32,7 @@ class pixel_marks {
         for (int y = pixels.y0; y < pixels.y1; ++y)
             std::fill_n(&bytes_(pixels.x0 / 8, y), (pixels.width() + 7) / 8, std::uint8_t{0});
     }
-    /// Sets the marks of some of up to eight pixels, bit by bit, that lie in one byte.
+    /// Replaces the marks of the pixels in `which` (bit i is pixel x + i) by those in `marks`; all lie in one byte.
     INSONIFY_INLINE void set(int x, int y, unsigned which, unsigned marks) {
         std::uint8_t& byte = bytes_(x / 8, y);
         byte = static_cast<std::uint8_t>((byte & ~(which << x % 8)) | (marks & which) << x % 8);
@@ -60,8 +60,8 @@ struct undecided_pixel {
 
 /// Output of shading for the shadow pass: a list for each tile, as few pixels are undecided.
 ///
-/// A pixel whose triangle is known to be lit gets all its light at once, any other its sky and ambient light. A surface
-/// that is drawn over another leaves the other's pixels in the lists: the last one of a marked pixel counts.
+/// A pixel whose triangle is known to be lit gets all its light at once, any other its sky and ambient light. Entries
+/// of pixels that a nearer surface overwrites stay listed; of a marked pixel, the last entry is valid.
 class undecided_light {
   public:
     undecided_light() = default;
@@ -70,9 +70,9 @@ class undecided_light {
         : tiles_(width, height, std::countr_zero(static_cast<unsigned>(tile))), marks_(width, height, memory) {
         std::size_t start = 0;
         for (std::size_t i = 0; i < tiles_.count(); ++i) {
-            // More than the tile's pixels, so that hidden ones are rarely looked for.
-            const rect box = tiles_.pixels(i, width, height);
-            const auto shown = static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height());
+            // A quarter more than the tile's pixels, so that remove_hidden() rarely runs.
+            const rect shown_in = tiles_.pixels(i, width, height);
+            const auto shown = static_cast<std::size_t>(shown_in.width()) * static_cast<std::size_t>(shown_in.height());
             lists_.push_back({start, 0, shown + shown / 4 + 8});
             start += lists_.back().room;
         }
@@ -85,8 +85,8 @@ class undecided_light {
         lists_[tile_of(tile.x0, tile.y0)].count = 0;
     }
 
-    /// Lists the undecided ones of some of N pixels of a row, whose marks lie in one byte; what was known of the others
-    /// before does not count any more.
+    /// Lists the undecided pixels of up to N in a row, whose marks lie in one byte, and discards earlier entries of all
+    /// pixels in `which`.
     /// @param which      pixels that are shaded, bit by bit
     /// @param undecided  those of them whose light is undecided
     template <int N>
@@ -139,7 +139,7 @@ class undecided_light {
         return {static_cast<int>(tile % columns) << tiles_.log2_size, static_cast<int>(tile / columns)
                                                                           << tiles_.log2_size};
     }
-    /// Leaves only pixels in a list that count.
+    /// Removes entries that are not valid.
     INSONIFY_RARE void remove_hidden(std::size_t tile) {
         list& of = lists_[tile];
         undecided_pixel* const start = pixels_.data() + of.start;
