@@ -89,8 +89,8 @@ in::image<float> line_of(const in::scene& scene, in::side_scan rig, in::side sid
     rig.side = side;
     const in::facet_backscatter law{.facets = 0.3f, .slope = 0.2f, .volume = 0.5f};
     // Gains level the vertical beam's pattern out to 45 degrees; below the sonar the beam is weak, and so is the echo.
-    const in::sonar_equation equation{in::pulse{2 * sonar.range_resolution}, in::horizontal_beam{sonar.beam},
-                                      in::vertical_beam{.width = sonar.vertical_beam}, in::level_gain{}};
+    const in::sonar_equation equation{in::pulse{2 * sonar.range_resolution}, in::horizontal_beam{sonar.beamwidth},
+                                      in::vertical_beam{.beamwidth = sonar.vertical_beamwidth}, in::level_gain{}};
     const std::vector<in::ping> tow = tow_of(rig);
     auto heard = in::record(scene, tow, rig, in::record_options<>{}.with(law).with(equation));
     heard = in::with_tone(

@@ -14,7 +14,7 @@ int main() {
     scene.add(in::cylinder{.radius = 0.3f, .length = 2}, {.position = {12, 6, 0.3}}, "cylinder");
 
     const in::side_scan sonar{.ping_spacing = 0.1f, .range = 30, .bins = 600};
-    const in::sonar_equation equation{in::transmission_loss{}, in::absorption{}, in::vertical_beam{},
+    const in::sonar_equation equation{in::spreading_loss{}, in::absorption{}, in::vertical_beam{},
                                       in::noise_floor{1e-9f}, in::level_gain{}};
     const auto options = in::record_options<>{}.with(equation).without_labels();
 

@@ -240,7 +240,7 @@ inline void sample_look(const options& o, sampler& s, sonar_plan& p, double pixe
     p.pulse = s.derived(
         "pulse_m", (std::max)(static_cast<double>(p.sonar.range_resolution), pixel * s.uniform("pulse_px", 0.2, 1.2)));
     const double beam = p.sonar.is_synthetic_aperture() ? static_cast<double>(p.sonar.along_track_resolution) / slant
-                                                        : static_cast<double>(p.sonar.beam);
+                                                        : static_cast<double>(p.sonar.beamwidth);
     p.beam = s.derived("beam_rad", (std::max)(beam * s.uniform("beam_factor", 0.7, 1.5), 0.3 * pixel / slant));
 
     p.gain.rms = static_cast<float>(s.logarithmic("gain_error_db", 0.05, 1.5));
@@ -362,7 +362,7 @@ inline sonar_plan sample_image(const options& o, sampler& s, const view_of_targe
     const std::string otherwise = any_fits ? "" : p.chip > 20 ? "side_scan_450" : "side_scan_1800";
     p.sonar = in::instrument_named(s.choice("sonar", sonars, otherwise));
     // The range is limited so that the beam is at most 5 pixels wide.
-    const double sharp = p.sonar.is_synthetic_aperture() ? 1e9 : 5 * pixel / static_cast<double>(p.sonar.beam);
+    const double sharp = p.sonar.is_synthetic_aperture() ? 1e9 : 5 * pixel / static_cast<double>(p.sonar.beamwidth);
     const double reach = (std::max)((std::min)(static_cast<double>(p.sonar.range), sharp), 1.3 * p.chip);
     const double lead = p.targets.empty() ? 0.5 : p.targets.front().across;
     // The slant range to the target is anything that the sonar's range allows. The altitude gives it the grazing angle

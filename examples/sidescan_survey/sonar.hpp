@@ -38,7 +38,7 @@ class sonar {
     /// Records `count` pings from the first + `before` on; the others only overlap the beam.
     block record_block(const sight& in_sight, std::span<const fix> pings, int before, int count, auto& ex) {
         const in::sonar_equation equation{
-            in::transmission_loss{},   in::absorption{}, in::vertical_beam{.side_lobes = 0.01f}, beam_, in::pulse{},
+            in::spreading_loss{},      in::absorption{}, in::vertical_beam{.side_lobes = 0.01f}, beam_, in::pulse{},
             in::noise_floor{2.5e-13f}, in::level_gain{}};
         std::vector<in::ping> track;
         for (const fix& f : pings) track.push_back(f.at);

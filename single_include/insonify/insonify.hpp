@@ -10202,6 +10202,15 @@ class light_frame {
     double cot_;
 };
 
+/// Direction to a point of a disc of light, in units of the distance to its centre.
+/// @param to_light  unit vector to the centre
+/// @param travel    unit vector on the ground along which shadows grow
+/// @param beside    offset from the centre, across and up, in the same unit
+inline glm::dvec3 toward_disc(const glm::dvec3& to_light, const glm::dvec2& travel, const glm::dvec2& beside) {
+    const glm::dvec3 across(-travel.y, travel.x, 0), up = numeric::cross(to_light, across);
+    return to_light + beside.x * across + beside.y * up;
+}
+
 }  // namespace INSONIFY_FLAGS
 
 }  // namespace shadow
@@ -11171,9 +11180,7 @@ class overhead_geometry {
     /// Direction from the datum below the camera to a point of the light, in units of the distance to its centre;
     /// `beside` is the offset from the centre, across and up, in the same unit.
     glm::dvec3 toward_light(const glm::dvec2& beside) const {
-        const glm::dvec3& middle = light_.to_light();
-        const glm::dvec3 across(-light_.travel().y, light_.travel().x, 0), up = numeric::cross(middle, across);
-        return middle + beside.x * across + beside.y * up;
+        return shadow::toward_disc(light_.to_light(), light_.travel(), beside);
     }
     bool has_near_light() const { return numeric::is_finite(rig_.light_distance); }
     /// Position of a point of a near light.
@@ -11476,11 +11483,20 @@ struct tile_grid {
     std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
     /// Tiles per call of the executor, which share one buffer; one in small pictures, so that every thread gets work.
     std::size_t run() const { return count() < 64 ? 1 : 4; }
+    /// The tile of a pixel.
+    std::size_t at(int x, int y) const {
+        return static_cast<std::size_t>(y >> log2_size) * static_cast<std::size_t>(columns) +
+               static_cast<std::size_t>(x >> log2_size);
+    }
+    /// The first pixel of a tile.
+    glm::ivec2 corner(std::size_t tile) const {
+        const auto row_length = static_cast<std::size_t>(columns);
+        return glm::ivec2(tile % row_length, tile / row_length) * (1 << log2_size);
+    }
     /// The pixels of a tile, clipped to the image.
     rect pixels(std::size_t tile, int width, int height) const {
-        const int x = static_cast<int>(tile % static_cast<std::size_t>(columns)) << log2_size;
-        const int y = static_cast<int>(tile / static_cast<std::size_t>(columns)) << log2_size;
-        return intersect({x, y, x + (1 << log2_size), y + (1 << log2_size)}, {0, 0, width, height});
+        const glm::ivec2 first = corner(tile), end = first + (1 << log2_size);
+        return intersect({first.x, first.y, end.x, end.y}, {0, 0, width, height});
     }
     /// The tiles that a rectangle of pixels touches; it must not be empty.
     tile_range touched(const rect& pixels) const {
@@ -15430,6 +15446,11 @@ struct plane_tiles {
 
     glm::dvec2 tile() const { return {size.x / columns, size.y / rows}; }
     std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+    /// The lower corner of a tile, from that of the whole.
+    glm::dvec2 corner(std::size_t i) const {
+        const auto row_length = static_cast<std::size_t>(columns);
+        return tile() * glm::dvec2(static_cast<double>(i % row_length), static_cast<double>(i / row_length));
+    }
 };
 
 /// A vertex on the plane, from the lower corner of the tiles.
@@ -15501,6 +15522,23 @@ struct plane_vertices_kernel {
 #endif
 };
 
+/// The cells of an axis between two coordinates in cells, clamped to the last one; all of them where `is_unbounded`.
+template <int N, class Mask>
+INSONIFY_INLINE void cells_between(insonify::detail::lanes<std::int32_t, N>& first,
+                                   insonify::detail::lanes<std::int32_t, N>& last,
+                                   const insonify::detail::lanes<float, N>& low,
+                                   const insonify::detail::lanes<float, N>& high, float last_cell,
+                                   const Mask& is_unbounded) {
+    using floats = insonify::detail::lanes<float, N>;
+    floats from = low > 0.0f ? low : floats{}, to = high < last_cell ? high : floats{} + last_cell;
+    from = from < last_cell ? from : floats{} + last_cell;
+    to = to > 0.0f ? to : floats{};
+    from = is_unbounded ? floats{} : from;
+    to = is_unbounded ? floats{} + last_cell : to;
+    insonify::detail::convert(first, from);
+    insonify::detail::convert(last, to);
+}
+
 /// N triangles on the plane, one per lane.
 template <int N>
 struct plane_triangles {
@@ -15567,16 +15605,9 @@ struct tile_assembly_kernel {
             const auto last_cell = static_cast<float>(axis == 0 ? tiles.columns - 1 : tiles.rows - 1);
             const floats margin =
                 0x1p-20f * ((high < 0.0f ? floats{} - low : high) + static_cast<float>(tiles.size[axis]));
-            floats f = (low - margin) * scale, l = (high + margin) * scale;
+            const floats f = (low - margin) * scale, l = (high + margin) * scale;
             outside |= ints(f > last_cell + 1.0f) | ints(l < 0.0f);
-            f = f > 0.0f ? f : floats{};
-            f = f < last_cell ? f : floats{} + last_cell;
-            l = l < last_cell ? l : floats{} + last_cell;
-            l = l > 0.0f ? l : floats{};
-            f = t.state > 0.0f ? floats{} : f;
-            l = t.state > 0.0f ? floats{} + last_cell : l;
-            convert(from[axis], f);
-            convert(to[axis], l);
+            cells_between<N>(from[axis], to[axis], f, l, last_cell, t.state > 0.0f);
         });
         outside = (outside & ints(t.state == 0.0f)) | ints(t.state == plane_vertex::not_finite) | t.is_behind;
         const unsigned drawn = ~movemask<N>(outside) & ((2u << (count - 1)) - 1);
@@ -15868,18 +15899,11 @@ struct occlusion_kernel {
             const floats far_off = high < 0.0f - low ? 0.0f - low : high;
             size = far_off > size ? far_off : size;
             const floats margin = 0x1p-20f * (far_off + receivers.largest()) + error;
-            floats f = (low - margin - lower) * scale, l = (high + margin - lower) * scale;
+            const floats f = (low - margin - lower) * scale, l = (high + margin - lower) * scale;
             missed |= ints(f >= last_cell + 1.0f) | ints(l < 0.0f);
-            f = f > 0.0f ? f : floats{};
-            f = f < last_cell ? f : floats{} + last_cell;
-            l = l < last_cell ? l : floats{} + last_cell;
-            l = l > 0.0f ? l : floats{};
             const ints behind = ints(t.state > 0.0f);
-            f = behind ? floats{} : f;
-            l = behind ? floats{} + last_cell : l;
             missed = missed & ~behind;
-            convert(first[axis], f);
-            convert(last[axis], l);
+            cells_between<N>(first[axis], last[axis], f, l, last_cell, behind);
             extent[axis] = (high - low) + 2.0f * receivers.cell()[axis];
         });
         floats low, high;
@@ -16289,10 +16313,7 @@ class exact_occlusion {
         const detail::ray_feet feet(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
             if (plane.occupant[tile] == caster || plane.occupant[tile] == no_caster) continue;
-            const glm::dvec2 size = plane.tiles.tile();
-            const auto columns = static_cast<std::size_t>(plane.tiles.columns);
-            const glm::dvec2 place(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
-            shared.push_back(feet.of(plane.tiles.lower + size * place, size));
+            shared.push_back(feet.of(plane.tiles.lower + plane.tiles.corner(tile), plane.tiles.tile()));
         }
         bulk_ranges(ex, static_cast<std::size_t>(grid.columns - 1), 32, [&](std::size_t first, std::size_t last) {
             const auto left = static_cast<int>(first), right = static_cast<int>(last);
@@ -16434,10 +16455,7 @@ class exact_occlusion {
     void test_tile(std::size_t tile_number, std::span<const detail::receiver> all, detail::receiver_cells& cells,
                    std::span<const points> at, std::span<const results> into) const {
         const auto [state, tile] = planes_.plane_of(tile_number);
-        const glm::dvec2 size = state->tiles.tile();
-        const auto columns = static_cast<std::size_t>(state->tiles.columns);
-        const glm::dvec2 from(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
-        cells.sort(all, at, glm::vec2(from * size), glm::vec2(size));
+        cells.sort(all, at, glm::vec2(state->tiles.corner(tile)), glm::vec2(state->tiles.tile()));
         for (std::size_t i = 0; i < state->casters.size(); ++i) {
             const auto number = static_cast<std::uint32_t>(i);
             cells.close(number);
@@ -17132,7 +17150,7 @@ class undecided_light {
     /// Empties the list of a tile.
     void clear(const rect& tile) {
         marks_.clear(tile);
-        lists_[tile_of(tile.x0, tile.y0)].count = 0;
+        lists_[tiles_.at(tile.x0, tile.y0)].count = 0;
     }
 
     /// Lists the undecided pixels of up to N in a row, whose marks lie in one byte, and discards earlier entries of all
@@ -17145,7 +17163,7 @@ class undecided_light {
                              const lanes<float, N>& direct) {
         marks_.set(x, y, which, 0);
         if (undecided == 0) return;
-        const std::size_t tile = tile_of(x, y);
+        const std::size_t tile = tiles_.at(x, y);
         list& into = lists_[tile];
         if (into.count + N > into.room) remove_hidden(tile);
         marks_.set(x, y, undecided, undecided);
@@ -17167,7 +17185,7 @@ class undecided_light {
     template <class Visit>
     void take(std::size_t tile, const Visit& visit) {
         const list& from = lists_[tile];
-        const glm::ivec2 corner = corner_of(tile);
+        const glm::ivec2 corner = tiles_.corner(tile);
         for (std::size_t i = from.count; i-- > 0;) {
             const undecided_pixel& p = pixels_[from.start + i];
             if (marks_.take(corner.x + p.column, corner.y + p.row)) visit(p);
@@ -17180,15 +17198,6 @@ class undecided_light {
         std::size_t start, count, room;
     };
 
-    std::size_t tile_of(int x, int y) const {
-        return static_cast<std::size_t>(y >> tiles_.log2_size) * static_cast<std::size_t>(tiles_.columns) +
-               static_cast<std::size_t>(x >> tiles_.log2_size);
-    }
-    glm::ivec2 corner_of(std::size_t tile) const {
-        const auto columns = static_cast<std::size_t>(tiles_.columns);
-        return {static_cast<int>(tile % columns) << tiles_.log2_size, static_cast<int>(tile / columns)
-                                                                          << tiles_.log2_size};
-    }
     /// Removes entries that are not valid.
     INSONIFY_RARE void remove_hidden(std::size_t tile) {
         list& of = lists_[tile];
@@ -17196,7 +17205,7 @@ class undecided_light {
         undecided_pixel *const end = start + of.count, *last = end;
         take(tile, [&](const undecided_pixel p) { *--last = p; });
         of.count = static_cast<std::size_t>(std::copy(last, end, start) - start);
-        const glm::ivec2 corner = corner_of(tile);
+        const glm::ivec2 corner = tiles_.corner(tile);
         for (std::size_t i = 0; i < of.count; ++i) mark(corner.x + start[i].column, corner.y + start[i].row);
     }
 
@@ -23520,19 +23529,15 @@ class penumbra_occlusion {
     /// @param beside  its offset from the disc's centre, across and up, divided by the light's distance
     static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& beside) {
         if (beside == glm::dvec2(0)) return light;
-        const auto place = [&](const glm::dvec3& middle, const glm::dvec2& travel) {
-            const glm::dvec3 across(-travel.y, travel.x, 0), up = numeric::cross(middle, across);
-            return middle + beside.x * across + beside.y * up;
-        };
         if (const auto* from_nearby = std::get_if<point_light>(&light)) {
             const glm::dvec3& p = from_nearby->position;
             const double distance = numeric::square_root(numeric::dot(p, p));
             const double level = numeric::square_root(p.x * p.x + p.y * p.y);
             const glm::dvec2 travel = level > 0 ? glm::dvec2(-p.x / level, -p.y / level) : glm::dvec2(1, 0);
-            return point_light{distance > 0 ? distance * place(p / distance, travel) : p};
+            return point_light{distance > 0 ? distance * toward_disc(p / distance, travel, beside) : p};
         }
         const light_frame frame(std::get<directional_light>(light));
-        const glm::dvec3 d = place(frame.to_light(), frame.travel());
+        const glm::dvec3 d = toward_disc(frame.to_light(), frame.travel(), beside);
         if (!(d.z > 0)) return std::nullopt;
         const double level = numeric::square_root(d.x * d.x + d.y * d.y);
         return directional_light{numeric::atan2(-d.y, -d.x), numeric::atan2(d.z, level)};
@@ -23665,7 +23670,7 @@ INSONIFY_ARITHMETIC_END
 // in it: reflectivity x law(sine of the grazing angle) x area, summed, in square metres at 1 m for source level 0. In
 // decibels, in the order of propagation (R. J. Urick. Principles of Underwater Sound, 3rd edition, 1983):
 //
-//   RL = source_level + vertical_beam - transmission_loss - absorption + 10 log10(cross-section x footprint / spacing),
+//   RL = source_level + vertical_beam - spreading_loss - absorption + 10 log10(cross-section x footprint / spacing),
 //   then pulse and horizontal_beam blur it, noise_floor is added, and time_varied_gain or level_gain amplify the sum.
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -23689,7 +23694,7 @@ struct source_level {
 };
 
 /// Two-way spherical spreading: 40 log10 R, R in metres.
-struct transmission_loss {
+struct spreading_loss {
     INSONIFY_MEMBER double over_range(double range) const { return 1 / (range * range * range * range); }
 };
 
@@ -23706,36 +23711,36 @@ struct absorption {
 /// The two-way vertical beam pattern: Gaussian about an axis below the horizon, plus omnidirectional side lobes. Side
 /// lobes receive the first return from straight below.
 struct vertical_beam {
-    float width = static_cast<float>(numeric::to_radians(50));  ///< between the -3 dB points of one way, radians
-    float tilt = static_cast<float>(numeric::to_radians(20));   ///< of the axis below the horizon, radians
-    float side_lobes = 1e-3f;                                   ///< two-way power relative to that on the axis
+    float beamwidth = static_cast<float>(numeric::to_radians(50));  ///< between the -3 dB points of one way, radians
+    float tilt = static_cast<float>(numeric::to_radians(20));       ///< of the axis below the horizon, radians
+    float side_lobes = 1e-3f;                                       ///< two-way power relative to that on the axis
     /// @param across, down  of the unit vector along the ray
     INSONIFY_MEMBER double over_direction(double across, double down) const {
-        const double off = (numeric::atan2(down, across) - static_cast<double>(tilt)) / static_cast<double>(width);
+        const double off = (numeric::atan2(down, across) - static_cast<double>(tilt)) / static_cast<double>(beamwidth);
         return static_cast<double>(side_lobes) + numeric::exp(-5.545177444479562 * off * off);  // 8 ln 2
     }
 };
 
-/// The two-way horizontal beam pattern: a Gaussian along the track whose width grows with range. It blurs over
-/// neighbouring pings, and the insonified area grows with it.
+/// The two-way horizontal beam pattern: a Gaussian along the track whose width in metres grows with range. It blurs
+/// over neighbouring pings, and the insonified area grows with it.
 struct horizontal_beam {
-    float width = static_cast<float>(numeric::to_radians(0.3));  ///< between the -3 dB points of one way, radians
+    float beamwidth = static_cast<float>(numeric::to_radians(0.3));  ///< between the -3 dB points of one way, radians
     /// Equivalent width along the track, metres: the integral of the pattern.
-    INSONIFY_MEMBER double footprint(double range) const { return 0.7526967 * range * static_cast<double>(width); }
+    INSONIFY_MEMBER double footprint(double range) const { return 0.7526967 * range * static_cast<double>(beamwidth); }
     /// Metres to either side beyond which the pattern counts as 0.
-    INSONIFY_MEMBER double reach(double range) const { return range * static_cast<double>(width); }
+    INSONIFY_MEMBER double reach(double range) const { return range * static_cast<double>(beamwidth); }
     INSONIFY_MEMBER double pattern(double along, double range) const {
-        const double off = along / (range * static_cast<double>(width));
+        const double off = along / (range * static_cast<double>(beamwidth));
         return numeric::exp(-5.545177444479562 * off * off);
     }
     /// Correlation length (1 / e) of speckle intensities along the track, metres. Two pings correlate as long as the
     /// sonar moves by less than a fraction of its array, so that phases stay the same, and of the footprint, so that
-    /// the scatterers do. Gaussian patterns make both correlations Gaussian, with lengths of 0.2650 wavelength / width
-    /// and 0.6006 range x width.
+    /// the scatterers do. Gaussian patterns make both correlations Gaussian, with lengths of 0.2650 wavelength /
+    /// beamwidth and 0.6006 range x beamwidth.
     /// @param wavelength  of the sound, metres: 0.0033 at 450 kHz
     INSONIFY_TAGGED double speckle_length(double range, double wavelength) const {
-        const double by_footprint = 0.6005612 * range * static_cast<double>(width);
-        const double by_phase = 0.2650104 * wavelength / static_cast<double>(width);
+        const double by_footprint = 0.6005612 * range * static_cast<double>(beamwidth);
+        const double by_phase = 0.2650104 * wavelength / static_cast<double>(beamwidth);
         return by_footprint * by_phase / numeric::square_root(by_footprint * by_footprint + by_phase * by_phase);
     }
 };
@@ -23797,12 +23802,14 @@ inline void validate(const absorption& a) {
     detail::require_range("absorption.decibels_per_km", a.decibels_per_km, 0, 3000, "0 to 3000 dB");
 }
 inline void validate(const vertical_beam& b) {
-    detail::require(b.width > 0 && numeric::is_finite(b.width), "vertical_beam.width", b.width, "radians above 0");
+    detail::require(b.beamwidth > 0 && numeric::is_finite(b.beamwidth), "vertical_beam.beamwidth", b.beamwidth,
+                    "radians above 0");
     detail::require_finite("vertical_beam.tilt", b.tilt);
     detail::require_not_negative("vertical_beam.side_lobes", b.side_lobes);
 }
 inline void validate(const horizontal_beam& b) {
-    detail::require(b.width > 0 && numeric::is_finite(b.width), "horizontal_beam.width", b.width, "radians above 0");
+    detail::require(b.beamwidth > 0 && numeric::is_finite(b.beamwidth), "horizontal_beam.beamwidth", b.beamwidth,
+                    "radians above 0");
 }
 inline void validate(const pulse& p) {
     detail::require_range("pulse.length", p.length, 0, 1e5f, "0 to 10^5 metres");
@@ -23854,7 +23861,7 @@ template <class P>
 concept equation_part = detail::direction_part<P> || detail::range_part<P> || detail::footprint_part<P> ||
     detail::pulse_part<P> || detail::noise_part<P> || detail::gain_part<P>;
 
-/// A list of parts, as in `sonar_equation{transmission_loss{}, absorption{}, time_varied_gain{}}`, in any order; at
+/// A list of parts, as in `sonar_equation{spreading_loss{}, absorption{}, time_varied_gain{}}`, in any order; at
 /// most one horizontal beam and one pulse.
 template <equation_part... Parts>
 class sonar_equation {
@@ -26379,23 +26386,23 @@ inline namespace INSONIFY_ABI {
 struct instrument {
     std::string_view name;
     float frequency;               ///< hertz
-    float beam;                    ///< width along the track, radians
+    float beamwidth;               ///< along the track, radians
     float range_resolution;        ///< metres of slant range
     float along_track_resolution;  ///< metres at every range of a synthetic aperture; 0: given by the beam
     float range;                   ///< metres of slant range to one side
     int looks;                     ///< intensities averaged per pixel
     float dynamic_range;           ///< of the display, decibels
     float absorption_per_km;       ///< decibels, one way
-    float vertical_beam;           ///< width, radians
+    float vertical_beamwidth;      ///< radians
     float tilt;                    ///< of the vertical beam's axis below the horizon, radians
 
     INSONIFY_MEMBER float wavelength() const { return 1500 / frequency; }
-    INSONIFY_MEMBER horizontal_beam horizontal() const { return {beam}; }
+    INSONIFY_MEMBER horizontal_beam horizontal() const { return {beamwidth}; }
     INSONIFY_MEMBER bool is_synthetic_aperture() const { return along_track_resolution > 0; }
     /// Resolution along the track at a slant range, metres.
     INSONIFY_MEMBER double along_track(double slant_range) const {
         return is_synthetic_aperture() ? static_cast<double>(along_track_resolution)
-                                       : slant_range * static_cast<double>(beam);
+                                       : slant_range * static_cast<double>(beamwidth);
     }
     /// Correlation length (1 / e) of speckle intensities across the track, metres: 0.516 of the resolution for a pulse
     /// with a flat band, whose correlation is the square of sin(u) / u.
@@ -26884,8 +26891,8 @@ inline double ground_resolution(double bin, double grazing) {
 }
 
 /// Metres along the track between the one-way -3 dB points of a beam, given in radians.
-inline double along_track_footprint(double slant, double beam_width) {
-    return slant * beam_width;
+inline double along_track_footprint(double slant, double beamwidth) {
+    return slant * beamwidth;
 }
 
 }  // namespace INSONIFY_FLAGS

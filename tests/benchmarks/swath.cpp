@@ -43,8 +43,8 @@ int main(int argc, char** argv) {
     scene.add(in::sphere{.radius = 0.5f}, {.position = {25, 30, 0.5}}, "sphere");
     scene.add(in::cone{.radius = 0.5f, .height = 1}, {.position = {30, 20, 0.5}}, "cone");
 
-    const in::sonar_equation whole{in::transmission_loss{}, in::absorption{}, in::vertical_beam{},
-                                   in::horizontal_beam{},   in::pulse{},      in::level_gain{}};
+    const in::sonar_equation whole{in::spreading_loss{},  in::absorption{}, in::vertical_beam{},
+                                   in::horizontal_beam{}, in::pulse{},      in::level_gain{}};
     using equation = std::remove_const_t<decltype(whole)>;
     using bare = in::record_options<in::no_labels>;
     const in::frame<> labelled = in::render(scene, rig, {}, context);

@@ -170,9 +170,9 @@ void record(const char* name, const in::seabed::any& seabed) {
     const in::scene scene = scene_over(seabed);
     const in::side_scan_rig<Axis> rig{
         .position = {-3, -4}, .altitude = 3, .yaw = 0.4f, .ping_spacing = 0.1f, .pings = 90, .range = 14, .bins = 200};
-    const in::sonar_equation equation{in::transmission_loss{}, in::absorption{}, in::vertical_beam{},
-                                      in::horizontal_beam{},   in::pulse{0.2f},  in::noise_floor{1e-9f},
-                                      in::time_varied_gain{},  in::level_gain{}};
+    const in::sonar_equation equation{in::spreading_loss{},   in::absorption{}, in::vertical_beam{},
+                                      in::horizontal_beam{},  in::pulse{0.2f},  in::noise_floor{1e-9f},
+                                      in::time_varied_gain{}, in::level_gain{}};
     const auto hash_by = [&](auto& executor) {
         const auto swath = in::render_swath(scene, rig, in::record_options<>{}.with(equation), executor);
         hash h;

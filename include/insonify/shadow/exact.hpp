@@ -79,10 +79,7 @@ class exact_occlusion {
         const detail::ray_feet feet(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
             if (plane.occupant[tile] == caster || plane.occupant[tile] == no_caster) continue;
-            const glm::dvec2 size = plane.tiles.tile();
-            const auto columns = static_cast<std::size_t>(plane.tiles.columns);
-            const glm::dvec2 place(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
-            shared.push_back(feet.of(plane.tiles.lower + size * place, size));
+            shared.push_back(feet.of(plane.tiles.lower + plane.tiles.corner(tile), plane.tiles.tile()));
         }
         bulk_ranges(ex, static_cast<std::size_t>(grid.columns - 1), 32, [&](std::size_t first, std::size_t last) {
             const auto left = static_cast<int>(first), right = static_cast<int>(last);
@@ -224,10 +221,7 @@ class exact_occlusion {
     void test_tile(std::size_t tile_number, std::span<const detail::receiver> all, detail::receiver_cells& cells,
                    std::span<const points> at, std::span<const results> into) const {
         const auto [state, tile] = planes_.plane_of(tile_number);
-        const glm::dvec2 size = state->tiles.tile();
-        const auto columns = static_cast<std::size_t>(state->tiles.columns);
-        const glm::dvec2 from(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
-        cells.sort(all, at, glm::vec2(from * size), glm::vec2(size));
+        cells.sort(all, at, glm::vec2(state->tiles.corner(tile)), glm::vec2(state->tiles.tile()));
         for (std::size_t i = 0; i < state->casters.size(); ++i) {
             const auto number = static_cast<std::uint32_t>(i);
             cells.close(number);

@@ -6,6 +6,7 @@
 // elevation; and level ground is level here too, so it needs no bias.
 #pragma once
 
+#include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
 
 #include <glm/vec2.hpp>
@@ -62,6 +63,15 @@ class light_frame {
     glm::dvec3 to_light_;
     double cot_;
 };
+
+/// Direction to a point of a disc of light, in units of the distance to its centre.
+/// @param to_light  unit vector to the centre
+/// @param travel    unit vector on the ground along which shadows grow
+/// @param beside    offset from the centre, across and up, in the same unit
+inline glm::dvec3 toward_disc(const glm::dvec3& to_light, const glm::dvec2& travel, const glm::dvec2& beside) {
+    const glm::dvec3 across(-travel.y, travel.x, 0), up = numeric::cross(to_light, across);
+    return to_light + beside.x * across + beside.y * up;
+}
 
 }  // namespace INSONIFY_FLAGS
 

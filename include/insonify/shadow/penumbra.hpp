@@ -66,19 +66,15 @@ class penumbra_occlusion {
     /// @param beside  its offset from the disc's centre, across and up, divided by the light's distance
     static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& beside) {
         if (beside == glm::dvec2(0)) return light;
-        const auto place = [&](const glm::dvec3& middle, const glm::dvec2& travel) {
-            const glm::dvec3 across(-travel.y, travel.x, 0), up = numeric::cross(middle, across);
-            return middle + beside.x * across + beside.y * up;
-        };
         if (const auto* from_nearby = std::get_if<point_light>(&light)) {
             const glm::dvec3& p = from_nearby->position;
             const double distance = numeric::square_root(numeric::dot(p, p));
             const double level = numeric::square_root(p.x * p.x + p.y * p.y);
             const glm::dvec2 travel = level > 0 ? glm::dvec2(-p.x / level, -p.y / level) : glm::dvec2(1, 0);
-            return point_light{distance > 0 ? distance * place(p / distance, travel) : p};
+            return point_light{distance > 0 ? distance * toward_disc(p / distance, travel, beside) : p};
         }
         const light_frame frame(std::get<directional_light>(light));
-        const glm::dvec3 d = place(frame.to_light(), frame.travel());
+        const glm::dvec3 d = toward_disc(frame.to_light(), frame.travel(), beside);
         if (!(d.z > 0)) return std::nullopt;
         const double level = numeric::square_root(d.x * d.x + d.y * d.y);
         return directional_light{numeric::atan2(-d.y, -d.x), numeric::atan2(d.z, level)};

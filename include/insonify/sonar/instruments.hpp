@@ -23,23 +23,23 @@ inline namespace INSONIFY_ABI {
 struct instrument {
     std::string_view name;
     float frequency;               ///< hertz
-    float beam;                    ///< width along the track, radians
+    float beamwidth;               ///< along the track, radians
     float range_resolution;        ///< metres of slant range
     float along_track_resolution;  ///< metres at every range of a synthetic aperture; 0: given by the beam
     float range;                   ///< metres of slant range to one side
     int looks;                     ///< intensities averaged per pixel
     float dynamic_range;           ///< of the display, decibels
     float absorption_per_km;       ///< decibels, one way
-    float vertical_beam;           ///< width, radians
+    float vertical_beamwidth;      ///< radians
     float tilt;                    ///< of the vertical beam's axis below the horizon, radians
 
     INSONIFY_MEMBER float wavelength() const { return 1500 / frequency; }
-    INSONIFY_MEMBER horizontal_beam horizontal() const { return {beam}; }
+    INSONIFY_MEMBER horizontal_beam horizontal() const { return {beamwidth}; }
     INSONIFY_MEMBER bool is_synthetic_aperture() const { return along_track_resolution > 0; }
     /// Resolution along the track at a slant range, metres.
     INSONIFY_MEMBER double along_track(double slant_range) const {
         return is_synthetic_aperture() ? static_cast<double>(along_track_resolution)
-                                       : slant_range * static_cast<double>(beam);
+                                       : slant_range * static_cast<double>(beamwidth);
     }
     /// Correlation length (1 / e) of speckle intensities across the track, metres: 0.516 of the resolution for a pulse
     /// with a flat band, whose correlation is the square of sin(u) / u.

@@ -342,7 +342,7 @@ TEST_CASE("Instruments are found by name; speckle lengths follow from pulse, bea
         CHECK(i.range > 0);
     }
     const in::instrument& towed = in::instruments::side_scan_450;
-    CHECK(towed.along_track(100) == Approx(100 * static_cast<double>(towed.beam)));
+    CHECK(towed.along_track(100) == Approx(100 * static_cast<double>(towed.beamwidth)));
     CHECK(towed.grain_along(100) ==
           Approx(towed.horizontal().speckle_length(100, 1500.0 / static_cast<double>(towed.frequency))).epsilon(1e-6));
     const in::instrument& aperture = in::instruments::synthetic_aperture;

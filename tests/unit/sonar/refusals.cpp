@@ -123,15 +123,16 @@ TEST_CASE("record() refuses each field of a sonar equation by name") {
     static_assert(members<in::source_level>() == 1 && members<in::absorption>() == 1 && members<in::pulse>() == 1);
     static_assert(members<in::vertical_beam>() == 3 && members<in::horizontal_beam>() == 1);
     static_assert(members<in::noise_floor>() == 1 && members<in::time_varied_gain>() == 3);
-    static_assert(members<in::level_gain>() == 1 && members<in::transmission_loss>() == 0);
+    static_assert(members<in::level_gain>() == 1 && members<in::spreading_loss>() == 0);
     const auto use = [](const auto& part) {
         (void)in::render(small_scene(), small_side_scan, in::record_options<>{}.with(in::sonar_equation{part}));
     };
     check_fields<in::source_level>("source_level.", {}, use, {FIELD(decibels, outside(-300, 300))});
     check_fields<in::absorption>("absorption.", {}, use, {FIELD(decibels_per_km, outside(0, 3000))});
-    check_fields<in::vertical_beam>("vertical_beam.", {}, use,
-                                    {FIELD(width, not_above_0), FIELD(tilt, not_finite), FIELD(side_lobes, below_0)});
-    check_fields<in::horizontal_beam>("horizontal_beam.", {}, use, {FIELD(width, not_above_0)});
+    check_fields<in::vertical_beam>(
+        "vertical_beam.", {}, use,
+        {FIELD(beamwidth, not_above_0), FIELD(tilt, not_finite), FIELD(side_lobes, below_0)});
+    check_fields<in::horizontal_beam>("horizontal_beam.", {}, use, {FIELD(beamwidth, not_above_0)});
     check_fields<in::pulse>("pulse.", {}, use, {FIELD(length, below_0)});
     check_fields<in::noise_floor>("noise_floor.", {}, use, {FIELD(intensity, below_0)});
     check_fields<in::time_varied_gain>("time_varied_gain.", {}, use,

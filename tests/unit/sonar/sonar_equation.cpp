@@ -73,8 +73,8 @@ TEST_CASE("Level seabed has constant intensity after level_gain, for any sonar, 
         }
     };
     check(in::sonar_equation{in::level_gain{}});
-    check(in::sonar_equation{in::transmission_loss{}, in::absorption{}, in::level_gain{}});
-    check(in::sonar_equation{in::source_level{220}, in::transmission_loss{}, in::absorption{322}, in::vertical_beam{},
+    check(in::sonar_equation{in::spreading_loss{}, in::absorption{}, in::level_gain{}});
+    check(in::sonar_equation{in::source_level{220}, in::spreading_loss{}, in::absorption{322}, in::vertical_beam{},
                              in::horizontal_beam{}, in::pulse{0.1f}, in::level_gain{}});
 }
 
@@ -84,11 +84,11 @@ TEST_CASE("Time-varied gain of 40 dB per decade, or 30 with a beam, makes seabed
         const auto profile = [&](int b) { return static_cast<double>(picture.image(b, 4)) * cosine_of(range_of(b)); };
         CHECK(level(110, 1000, profile).second < 0.01);
     };
-    check(in::sonar_equation{in::transmission_loss{}, in::absorption{169}, in::time_varied_gain{40, 169}});
-    check(in::sonar_equation{in::transmission_loss{}, in::absorption{169}, in::horizontal_beam{},
+    check(in::sonar_equation{in::spreading_loss{}, in::absorption{169}, in::time_varied_gain{40, 169}});
+    check(in::sonar_equation{in::spreading_loss{}, in::absorption{169}, in::horizontal_beam{},
                              in::time_varied_gain{30, 169}});
     // With Lambert's law what is left is sin^2 of the grazing angle.
-    const auto lambert = heard(level_bottom(), in::sonar_equation{in::transmission_loss{}, in::time_varied_gain{}});
+    const auto lambert = heard(level_bottom(), in::sonar_equation{in::spreading_loss{}, in::time_varied_gain{}});
     const auto profile = [&](int b) {
         const double sine = 5 / range_of(b);
         return static_cast<double>(lambert.image(b, 4)) * cosine_of(range_of(b)) / (sine * sine);
@@ -105,7 +105,7 @@ TEST_CASE("Losses and levels are those of their formulas") {
     for (const int bin : {150, 400, 999}) {
         const double r = range_of(bin);
         CHECK(ratio(in::sonar_equation{in::source_level{7}}, bin) == Approx(std::pow(10, 0.7)).epsilon(1e-5));
-        CHECK(ratio(in::sonar_equation{in::transmission_loss{}}, bin) == Approx(std::pow(r, -4)).epsilon(1e-5));
+        CHECK(ratio(in::sonar_equation{in::spreading_loss{}}, bin) == Approx(std::pow(r, -4)).epsilon(1e-5));
         CHECK(ratio(in::sonar_equation{in::absorption{322}}, bin) ==
               Approx(std::pow(10, -2 * 0.322 * r / 10)).epsilon(1e-5));
         CHECK(ratio(in::sonar_equation{in::horizontal_beam{0.3_deg}}, bin) ==
@@ -117,7 +117,7 @@ TEST_CASE("Losses and levels are those of their formulas") {
 }
 
 TEST_CASE("A vertical beam is at full strength on its axis and a quarter, 6 dB, at its edges") {
-    const in::vertical_beam beam{.width = 40_deg, .tilt = 25_deg, .side_lobes = 0};
+    const in::vertical_beam beam{.beamwidth = 40_deg, .tilt = 25_deg, .side_lobes = 0};
     const auto at = [&](double depression) {
         return beam.over_direction(std::cos(depression * in::numeric::pi / 180),
                                    std::sin(depression * in::numeric::pi / 180));
@@ -142,7 +142,7 @@ TEST_CASE("A horizontal beam blurs over its width at each range and preserves en
     in::side_scan fine = long_rig;
     fine.ping_spacing = 0.02f;
     fine.pings = 201;
-    const in::horizontal_beam beam{.width = 1_deg};
+    const in::horizontal_beam beam{.beamwidth = 1_deg};
     const auto sharp = heard(s, in::sonar_equation<>{}, fine);
     const auto blurred = heard(s, in::sonar_equation{beam}, fine);
     for (const double x : {9.9, 29.9}) {
@@ -207,7 +207,7 @@ TEST_CASE("A pulse lengthens echoes by its length and preserves energy") {
 }
 
 TEST_CASE("The water column holds the noise floor alone, scaled by the gain") {
-    const in::sonar_equation equation{in::transmission_loss{}, in::absorption{322}, in::noise_floor{1e-9f},
+    const in::sonar_equation equation{in::spreading_loss{}, in::absorption{322}, in::noise_floor{1e-9f},
                                       in::time_varied_gain{40, 322}};
     const auto picture = heard(level_bottom(), equation);
     for (const int bin : {10, 50, 98}) {

@@ -16,6 +16,8 @@
 #include <span>
 #include <utility>
 
+#include <glm/vec2.hpp>
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
@@ -50,11 +52,20 @@ struct tile_grid {
     std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
     /// Tiles per call of the executor, which share one buffer; one in small pictures, so that every thread gets work.
     std::size_t run() const { return count() < 64 ? 1 : 4; }
+    /// The tile of a pixel.
+    std::size_t at(int x, int y) const {
+        return static_cast<std::size_t>(y >> log2_size) * static_cast<std::size_t>(columns) +
+               static_cast<std::size_t>(x >> log2_size);
+    }
+    /// The first pixel of a tile.
+    glm::ivec2 corner(std::size_t tile) const {
+        const auto row_length = static_cast<std::size_t>(columns);
+        return glm::ivec2(tile % row_length, tile / row_length) * (1 << log2_size);
+    }
     /// The pixels of a tile, clipped to the image.
     rect pixels(std::size_t tile, int width, int height) const {
-        const int x = static_cast<int>(tile % static_cast<std::size_t>(columns)) << log2_size;
-        const int y = static_cast<int>(tile / static_cast<std::size_t>(columns)) << log2_size;
-        return intersect({x, y, x + (1 << log2_size), y + (1 << log2_size)}, {0, 0, width, height});
+        const glm::ivec2 first = corner(tile), end = first + (1 << log2_size);
+        return intersect({first.x, first.y, end.x, end.y}, {0, 0, width, height});
     }
     /// The tiles that a rectangle of pixels touches; it must not be empty.
     tile_range touched(const rect& pixels) const {

@@ -26,6 +26,11 @@ struct plane_tiles {
 
     glm::dvec2 tile() const { return {size.x / columns, size.y / rows}; }
     std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+    /// The lower corner of a tile, from that of the whole.
+    glm::dvec2 corner(std::size_t i) const {
+        const auto row_length = static_cast<std::size_t>(columns);
+        return tile() * glm::dvec2(static_cast<double>(i % row_length), static_cast<double>(i / row_length));
+    }
 };
 
 /// A vertex on the plane, from the lower corner of the tiles.
@@ -97,6 +102,23 @@ struct plane_vertices_kernel {
 #endif
 };
 
+/// The cells of an axis between two coordinates in cells, clamped to the last one; all of them where `is_unbounded`.
+template <int N, class Mask>
+INSONIFY_INLINE void cells_between(insonify::detail::lanes<std::int32_t, N>& first,
+                                   insonify::detail::lanes<std::int32_t, N>& last,
+                                   const insonify::detail::lanes<float, N>& low,
+                                   const insonify::detail::lanes<float, N>& high, float last_cell,
+                                   const Mask& is_unbounded) {
+    using floats = insonify::detail::lanes<float, N>;
+    floats from = low > 0.0f ? low : floats{}, to = high < last_cell ? high : floats{} + last_cell;
+    from = from < last_cell ? from : floats{} + last_cell;
+    to = to > 0.0f ? to : floats{};
+    from = is_unbounded ? floats{} : from;
+    to = is_unbounded ? floats{} + last_cell : to;
+    insonify::detail::convert(first, from);
+    insonify::detail::convert(last, to);
+}
+
 /// N triangles on the plane, one per lane.
 template <int N>
 struct plane_triangles {
@@ -163,16 +185,9 @@ struct tile_assembly_kernel {
             const auto last_cell = static_cast<float>(axis == 0 ? tiles.columns - 1 : tiles.rows - 1);
             const floats margin =
                 0x1p-20f * ((high < 0.0f ? floats{} - low : high) + static_cast<float>(tiles.size[axis]));
-            floats f = (low - margin) * scale, l = (high + margin) * scale;
+            const floats f = (low - margin) * scale, l = (high + margin) * scale;
             outside |= ints(f > last_cell + 1.0f) | ints(l < 0.0f);
-            f = f > 0.0f ? f : floats{};
-            f = f < last_cell ? f : floats{} + last_cell;
-            l = l < last_cell ? l : floats{} + last_cell;
-            l = l > 0.0f ? l : floats{};
-            f = t.state > 0.0f ? floats{} : f;
-            l = t.state > 0.0f ? floats{} + last_cell : l;
-            convert(from[axis], f);
-            convert(to[axis], l);
+            cells_between<N>(from[axis], to[axis], f, l, last_cell, t.state > 0.0f);
         });
         outside = (outside & ints(t.state == 0.0f)) | ints(t.state == plane_vertex::not_finite) | t.is_behind;
         const unsigned drawn = ~movemask<N>(outside) & ((2u << (count - 1)) - 1);

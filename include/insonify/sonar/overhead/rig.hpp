@@ -77,9 +77,7 @@ class overhead_geometry {
     /// Direction from the datum below the camera to a point of the light, in units of the distance to its centre;
     /// `beside` is the offset from the centre, across and up, in the same unit.
     glm::dvec3 toward_light(const glm::dvec2& beside) const {
-        const glm::dvec3& middle = light_.to_light();
-        const glm::dvec3 across(-light_.travel().y, light_.travel().x, 0), up = numeric::cross(middle, across);
-        return middle + beside.x * across + beside.y * up;
+        return shadow::toward_disc(light_.to_light(), light_.travel(), beside);
     }
     bool has_near_light() const { return numeric::is_finite(rig_.light_distance); }
     /// Position of a point of a near light.

@@ -73,8 +73,8 @@ inline double ground_resolution(double bin, double grazing) {
 }
 
 /// Metres along the track between the one-way -3 dB points of a beam, given in radians.
-inline double along_track_footprint(double slant, double beam_width) {
-    return slant * beam_width;
+inline double along_track_footprint(double slant, double beamwidth) {
+    return slant * beamwidth;
 }
 
 }  // namespace INSONIFY_FLAGS

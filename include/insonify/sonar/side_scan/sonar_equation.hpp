@@ -4,7 +4,7 @@
 // in it: reflectivity x law(sine of the grazing angle) x area, summed, in square metres at 1 m for source level 0. In
 // decibels, in the order of propagation (R. J. Urick. Principles of Underwater Sound, 3rd edition, 1983):
 //
-//   RL = source_level + vertical_beam - transmission_loss - absorption + 10 log10(cross-section x footprint / spacing),
+//   RL = source_level + vertical_beam - spreading_loss - absorption + 10 log10(cross-section x footprint / spacing),
 //   then pulse and horizontal_beam blur it, noise_floor is added, and time_varied_gain or level_gain amplify the sum.
 #pragma once
 
@@ -34,7 +34,7 @@ struct source_level {
 };
 
 /// Two-way spherical spreading: 40 log10 R, R in metres.
-struct transmission_loss {
+struct spreading_loss {
     INSONIFY_MEMBER double over_range(double range) const { return 1 / (range * range * range * range); }
 };
 
@@ -51,36 +51,36 @@ struct absorption {
 /// The two-way vertical beam pattern: Gaussian about an axis below the horizon, plus omnidirectional side lobes. Side
 /// lobes receive the first return from straight below.
 struct vertical_beam {
-    float width = static_cast<float>(numeric::to_radians(50));  ///< between the -3 dB points of one way, radians
-    float tilt = static_cast<float>(numeric::to_radians(20));   ///< of the axis below the horizon, radians
-    float side_lobes = 1e-3f;                                   ///< two-way power relative to that on the axis
+    float beamwidth = static_cast<float>(numeric::to_radians(50));  ///< between the -3 dB points of one way, radians
+    float tilt = static_cast<float>(numeric::to_radians(20));       ///< of the axis below the horizon, radians
+    float side_lobes = 1e-3f;                                       ///< two-way power relative to that on the axis
     /// @param across, down  of the unit vector along the ray
     INSONIFY_MEMBER double over_direction(double across, double down) const {
-        const double off = (numeric::atan2(down, across) - static_cast<double>(tilt)) / static_cast<double>(width);
+        const double off = (numeric::atan2(down, across) - static_cast<double>(tilt)) / static_cast<double>(beamwidth);
         return static_cast<double>(side_lobes) + numeric::exp(-5.545177444479562 * off * off);  // 8 ln 2
     }
 };
 
-/// The two-way horizontal beam pattern: a Gaussian along the track whose width grows with range. It blurs over
-/// neighbouring pings, and the insonified area grows with it.
+/// The two-way horizontal beam pattern: a Gaussian along the track whose width in metres grows with range. It blurs
+/// over neighbouring pings, and the insonified area grows with it.
 struct horizontal_beam {
-    float width = static_cast<float>(numeric::to_radians(0.3));  ///< between the -3 dB points of one way, radians
+    float beamwidth = static_cast<float>(numeric::to_radians(0.3));  ///< between the -3 dB points of one way, radians
     /// Equivalent width along the track, metres: the integral of the pattern.
-    INSONIFY_MEMBER double footprint(double range) const { return 0.7526967 * range * static_cast<double>(width); }
+    INSONIFY_MEMBER double footprint(double range) const { return 0.7526967 * range * static_cast<double>(beamwidth); }
     /// Metres to either side beyond which the pattern counts as 0.
-    INSONIFY_MEMBER double reach(double range) const { return range * static_cast<double>(width); }
+    INSONIFY_MEMBER double reach(double range) const { return range * static_cast<double>(beamwidth); }
     INSONIFY_MEMBER double pattern(double along, double range) const {
-        const double off = along / (range * static_cast<double>(width));
+        const double off = along / (range * static_cast<double>(beamwidth));
         return numeric::exp(-5.545177444479562 * off * off);
     }
     /// Correlation length (1 / e) of speckle intensities along the track, metres. Two pings correlate as long as the
     /// sonar moves by less than a fraction of its array, so that phases stay the same, and of the footprint, so that
-    /// the scatterers do. Gaussian patterns make both correlations Gaussian, with lengths of 0.2650 wavelength / width
-    /// and 0.6006 range x width.
+    /// the scatterers do. Gaussian patterns make both correlations Gaussian, with lengths of 0.2650 wavelength /
+    /// beamwidth and 0.6006 range x beamwidth.
     /// @param wavelength  of the sound, metres: 0.0033 at 450 kHz
     INSONIFY_TAGGED double speckle_length(double range, double wavelength) const {
-        const double by_footprint = 0.6005612 * range * static_cast<double>(width);
-        const double by_phase = 0.2650104 * wavelength / static_cast<double>(width);
+        const double by_footprint = 0.6005612 * range * static_cast<double>(beamwidth);
+        const double by_phase = 0.2650104 * wavelength / static_cast<double>(beamwidth);
         return by_footprint * by_phase / numeric::square_root(by_footprint * by_footprint + by_phase * by_phase);
     }
 };
@@ -142,12 +142,14 @@ inline void validate(const absorption& a) {
     detail::require_range("absorption.decibels_per_km", a.decibels_per_km, 0, 3000, "0 to 3000 dB");
 }
 inline void validate(const vertical_beam& b) {
-    detail::require(b.width > 0 && numeric::is_finite(b.width), "vertical_beam.width", b.width, "radians above 0");
+    detail::require(b.beamwidth > 0 && numeric::is_finite(b.beamwidth), "vertical_beam.beamwidth", b.beamwidth,
+                    "radians above 0");
     detail::require_finite("vertical_beam.tilt", b.tilt);
     detail::require_not_negative("vertical_beam.side_lobes", b.side_lobes);
 }
 inline void validate(const horizontal_beam& b) {
-    detail::require(b.width > 0 && numeric::is_finite(b.width), "horizontal_beam.width", b.width, "radians above 0");
+    detail::require(b.beamwidth > 0 && numeric::is_finite(b.beamwidth), "horizontal_beam.beamwidth", b.beamwidth,
+                    "radians above 0");
 }
 inline void validate(const pulse& p) {
     detail::require_range("pulse.length", p.length, 0, 1e5f, "0 to 10^5 metres");
@@ -199,7 +201,7 @@ template <class P>
 concept equation_part = detail::direction_part<P> || detail::range_part<P> || detail::footprint_part<P> ||
     detail::pulse_part<P> || detail::noise_part<P> || detail::gain_part<P>;
 
-/// A list of parts, as in `sonar_equation{transmission_loss{}, absorption{}, time_varied_gain{}}`, in any order; at
+/// A list of parts, as in `sonar_equation{spreading_loss{}, absorption{}, time_varied_gain{}}`, in any order; at
 /// most one horizontal beam and one pulse.
 template <equation_part... Parts>
 class sonar_equation {

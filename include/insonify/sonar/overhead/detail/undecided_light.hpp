@@ -82,7 +82,7 @@ class undecided_light {
     /// Empties the list of a tile.
     void clear(const rect& tile) {
         marks_.clear(tile);
-        lists_[tile_of(tile.x0, tile.y0)].count = 0;
+        lists_[tiles_.at(tile.x0, tile.y0)].count = 0;
     }
 
     /// Lists the undecided pixels of up to N in a row, whose marks lie in one byte, and discards earlier entries of all
@@ -95,7 +95,7 @@ class undecided_light {
                              const lanes<float, N>& direct) {
         marks_.set(x, y, which, 0);
         if (undecided == 0) return;
-        const std::size_t tile = tile_of(x, y);
+        const std::size_t tile = tiles_.at(x, y);
         list& into = lists_[tile];
         if (into.count + N > into.room) remove_hidden(tile);
         marks_.set(x, y, undecided, undecided);
@@ -117,7 +117,7 @@ class undecided_light {
     template <class Visit>
     void take(std::size_t tile, const Visit& visit) {
         const list& from = lists_[tile];
-        const glm::ivec2 corner = corner_of(tile);
+        const glm::ivec2 corner = tiles_.corner(tile);
         for (std::size_t i = from.count; i-- > 0;) {
             const undecided_pixel& p = pixels_[from.start + i];
             if (marks_.take(corner.x + p.column, corner.y + p.row)) visit(p);
@@ -130,15 +130,6 @@ class undecided_light {
         std::size_t start, count, room;
     };
 
-    std::size_t tile_of(int x, int y) const {
-        return static_cast<std::size_t>(y >> tiles_.log2_size) * static_cast<std::size_t>(tiles_.columns) +
-               static_cast<std::size_t>(x >> tiles_.log2_size);
-    }
-    glm::ivec2 corner_of(std::size_t tile) const {
-        const auto columns = static_cast<std::size_t>(tiles_.columns);
-        return {static_cast<int>(tile % columns) << tiles_.log2_size, static_cast<int>(tile / columns)
-                                                                          << tiles_.log2_size};
-    }
     /// Removes entries that are not valid.
     INSONIFY_RARE void remove_hidden(std::size_t tile) {
         list& of = lists_[tile];
@@ -146,7 +137,7 @@ class undecided_light {
         undecided_pixel *const end = start + of.count, *last = end;
         take(tile, [&](const undecided_pixel p) { *--last = p; });
         of.count = static_cast<std::size_t>(std::copy(last, end, start) - start);
-        const glm::ivec2 corner = corner_of(tile);
+        const glm::ivec2 corner = tiles_.corner(tile);
         for (std::size_t i = 0; i < of.count; ++i) mark(corner.x + start[i].column, corner.y + start[i].row);
     }
 
