@@ -84,8 +84,7 @@ render_stats record_into(image_view<float> into, const scene& s, std::span<const
 }
 
 /// Records the straight track of a rig, in slant or ground range. Row i is ping i. For a `horizontal_beam`, the track
-/// is continued beyond its ends. The other parameters are those of
-/// `record`.
+/// is continued beyond its ends. The other parameters are those of `record`.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
 frame<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
