@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Follows the guide word for word: follow.py <project> <folder to work in> [--generate PROGRAM] [--merge PROGRAM] [page...]
+"""Follows the guide word for word: follow.py <project> <folder to work in> [options] [page...]
 
 Pages are followed in the order of docs/guide/README.md, in one folder, from top to bottom:
 
@@ -8,7 +8,7 @@ Pages are followed in the order of docs/guide/README.md, in one folder, from top
 - A block that quotes a file of the project, as in ```cpp examples/own_noise.cpp, is checked by tests/rules/excerpts.py.
 - A block of `text` below one that was run is its output: each of its lines, in this order; `...` stands for anything.
 
-Then the commands of README.md and docs/compile_cost.md are run, with the project's single_include/ and examples/.
+Then the commands of the pages --commands are run, with the project's single_include/ and examples/.
 
 `insonify/` in the folder is the project. `insonify/tools/generate` and `insonify/tools/merge` build what they run; the
 programs that the options name run in their place. Without them, or without GoogleTest, blocks are skipped and listed.
@@ -24,7 +24,6 @@ import sys
 import time
 
 FENCE = re.compile(r"^```(\S*) ?(.*?)\n(.*?)^```$", re.M | re.S)
-COMMANDS = ["README.md", "docs/compile_cost.md"]  # pages whose blocks of `sh` are run
 FENCE_NAME = re.compile(r"\S+\.\w+")
 FILE_NAME = re.compile(r"(?://|#) (\S+\.\w+|Makefile)\s*$")
 LIMIT = 150 * 1000  # bytes of a picture
@@ -131,6 +130,7 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--generate", help="the program generate_dataset")
     parser.add_argument("--merge", help="the program merge_dataset")
+    parser.add_argument("--commands", action="append", default=[], help="another page whose blocks of `sh` are run")
     parser.add_argument("pages", nargs="*")
     given = parser.parse_args()
     os.environ.setdefault("CXX", "g++")
@@ -141,9 +141,8 @@ def main():
     for page in pages:
         if not given.pages or page in given.pages or page == pages[0]:
             guide.follow(page)
-    for page in COMMANDS:
-        if not given.pages or page in given.pages:
-            guide.run_commands(page)
+    for page in given.commands:
+        guide.run_commands(page)
     for where in guide.left_out:
         print(f"{where}: left out, the generator or GoogleTest is missing")
     print("\n".join(guide.faults + [f"{guide.blocks} blocks, {len(guide.faults)} faults"]))

@@ -24,7 +24,7 @@ namespace in = insonify;
 
 namespace {
 
-constexpr double pi = in::numeric::pi;
+using in::numeric::pi;
 
 double area_of(const in::mesh& m, const glm::uvec3& t) {
     const glm::dvec3 a(m.positions[t.x]), b(m.positions[t.y]), c(m.positions[t.z]);

@@ -21,7 +21,7 @@ namespace in = insonify;
 
 namespace {
 
-constexpr double pi = in::numeric::pi;
+using in::numeric::pi;
 
 struct measures {
     double area = 0;

@@ -11,7 +11,7 @@ namespace in = insonify;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using in::numeric::pi;
 
 /// Largest deviation of a mesh's facets from a ball of the given radius around the origin.
 double deviation_from_ball(const in::mesh& m, double radius, double lowest) {
