@@ -18,6 +18,9 @@ import sys
 import tempfile
 import unittest
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+from programs import digest
+
 GENERATOR = sys.argv.pop(1)
 STEP = int(os.environ.get("INSONIFY_FAULTS", "40"))
 
@@ -100,11 +103,6 @@ __attribute__((destructor)) static void report(void) {
     NEXT(int (*)(FILE*), "fclose")(file);
 }
 """
-
-
-def digest(folder):
-    return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
-            for path in sorted(pathlib.Path(folder).rglob("*")) if path.is_file() and path.name != ".lock"}
 
 
 @unittest.skipUnless(shutil.which("cc") and sys.platform == "linux", "needs a C compiler and a preloaded library")

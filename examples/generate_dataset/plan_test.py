@@ -6,41 +6,29 @@ plan_test.py <generate_dataset> <merge_dataset>
 
 import csv
 import fnmatch
+import functools
 import hashlib
 import io
-import json
 import math
 import pathlib
 import random
 import re
 import struct
-import subprocess
 import sys
 import tempfile
 import unittest
 import zlib
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import programs
+
 GENERATOR, MERGE = sys.argv.pop(1), sys.argv.pop(1)
 PUBLISHED = pathlib.Path(__file__).resolve().parents[3] / "shared/reference/published_pipeline"
-
-
-def run(*options, expect=0, program=GENERATOR):
-    result = subprocess.run([program, *map(str, options)], capture_output=True, text=True, timeout=300)
-    assert result.returncode == expect, f"exit {result.returncode}, expected {expect}:\n{result.stdout}{result.stderr}"
-    return result.stdout + result.stderr
-
-
-def refusal(*options):
-    result = subprocess.run([GENERATOR, *map(str, options)], capture_output=True, text=True, timeout=60)
-    assert result.returncode in (1, 2), result
-    return result.stdout + result.stderr
-
-
-def digest(folder):
-    """SHA-256 of every file of a set except those that name its plan."""
-    return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
-            for path in sorted(folder.rglob("*")) if path.is_file() and path.name not in
-            (".lock", "config.json", "README.md", "SHA256SUMS")}
+NAMES_OF_PLAN = (".lock", "config.json", "README.md", "SHA256SUMS")  # files that name the plan of a set
+run = functools.partial(programs.run, GENERATOR)
+merge = functools.partial(programs.run, MERGE)
+refusal = functools.partial(programs.run, GENERATOR, expect=(1, 2), seconds=60)
+digest = functools.partial(programs.digest, leave_out=NAMES_OF_PLAN)
 
 
 def manifest(folder):
@@ -133,9 +121,9 @@ class Plans(unittest.TestCase):
             # The same in shards.
             shards = self.folder / (recipe + "_shards")
             run("--out", shards, "--plan", self.table(text.getvalue()), "--shard", "0/2")
-            self.assertIn("shard 1/2 lacks", run(shards, program=MERGE, expect=1))
+            self.assertIn("shard 1/2 lacks", merge(shards, expect=1))
             run("--out", shards, "--plan", self.table(text.getvalue()), "--shard", "1/2")
-            run(shards, program=MERGE)
+            merge(shards)
             self.assertEqual(digest(shards), digest(again))
             self.assertIn("0 faults", run("--out", shards, "--plan", self.table(text.getvalue()), "--verify"))
 

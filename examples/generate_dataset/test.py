@@ -25,6 +25,10 @@ import time
 import unittest
 import zlib
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import programs
+from programs import digest
+
 GENERATOR, MERGE = sys.argv.pop(1), sys.argv.pop(1)
 KILLS = int(os.environ.get("INSONIFY_KILLS", "8"))
 SMALL = ["--recipe", "published", "--size", "96", "--count", "8", "--seed", "5", "--noise", "speckle:0.1,poisson:200"]
@@ -37,23 +41,12 @@ def with_recipe(options):
 
 def run(*options, expect=0, program=GENERATOR, **environment):
     options = with_recipe(options) if program == GENERATOR else options
-    result = subprocess.run([program, *map(str, options)], capture_output=True, text=True, timeout=300,
-                            env=os.environ | environment)
-    assert expect in (None, result.returncode), f"exit {result.returncode}, expected {expect}:\n{result.stdout}{result.stderr}"
-    return result.stdout + result.stderr
+    return programs.run(program, *options, expect=expect, **environment)
 
 
 def refusal(*options):
     """Output of a run that must be refused with exit code 1 or 2."""
-    result = subprocess.run([GENERATOR, *map(str, with_recipe(options))], capture_output=True, text=True, timeout=20)
-    assert result.returncode in (1, 2), result
-    return result.stdout + result.stderr
-
-
-def digest(folder):
-    """SHA-256 of every file of a data set, by path."""
-    return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
-            for path in sorted(pathlib.Path(folder).rglob("*")) if path.is_file() and path.name != ".lock"}
+    return programs.run(GENERATOR, *with_recipe(options), expect=(1, 2), seconds=20)
 
 
 def pgm(path, maxval=255, name="P5"):

@@ -2,31 +2,24 @@
 """Measures chips against closed forms, and checks that the simulator uses the library only to write files: test.py <ping_simulator>"""
 
 import csv
-import hashlib
+import functools
 import math
 import pathlib
 import re
 import statistics
 import struct
-import subprocess
 import sys
 import tempfile
 import unittest
 import zlib
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import programs
+from programs import digest
+
 SIMULATOR = sys.argv.pop(1)
+run = functools.partial(programs.run, SIMULATOR)
 CHIP, PIXELS = 5, 128
-
-
-def run(*options, expect=0):
-    result = subprocess.run([SIMULATOR, *map(str, options)], capture_output=True, text=True, timeout=300)
-    assert result.returncode == expect, f"exit {result.returncode}, expected {expect}:\n{result.stdout}{result.stderr}"
-    return result.stdout + result.stderr
-
-
-def digest(folder):
-    return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
-            for path in sorted(pathlib.Path(folder).rglob("*")) if path.is_file()}
 
 
 def read_png(path):

@@ -1,23 +1,21 @@
 #!/usr/bin/env python3
 """Tests the trial on real images with drawn pictures: real_test.py <recognize_real>"""
 
+import functools
 import pathlib
 import random
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
 import xml.dom.minidom
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import programs
+
 RECOGNIZE = sys.argv.pop(1)
+run = functools.partial(programs.run, RECOGNIZE)
 QUICK = ["--seeds", 2, "--counts", "0,4,12"]
-
-
-def run(*options, expect=0):
-    result = subprocess.run([RECOGNIZE, *map(str, options)], capture_output=True, text=True, timeout=300)
-    assert result.returncode == expect, f"exit {result.returncode}, expected {expect}:\n{result.stdout}{result.stderr}"
-    return result.stdout + result.stderr
 
 
 def picture(path, kind, seed, noise=30, size=48):

@@ -3,19 +3,15 @@
 
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+from programs import run
+
 RECOGNIZE, SIMULATOR = sys.argv.pop(1), sys.argv.pop(1)
 QUICK = ["--seeds", 2, "--sizes", "12,24", "--synthetic-test", "8,8,8", "--recipes", "overhead,slant_range"]
-
-
-def run(program, *options, expect=0):
-    result = subprocess.run([program, *map(str, options)], capture_output=True, text=True, timeout=300)
-    assert result.returncode == expect, f"exit {result.returncode}, expected {expect}:\n{result.stdout}{result.stderr}"
-    return result.stdout + result.stderr
 
 
 class Recognition(unittest.TestCase):

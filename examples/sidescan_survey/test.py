@@ -2,28 +2,22 @@
 """Runs a small survey and reads its files back: test.py <sidescan_survey>"""
 
 import csv
-import hashlib
+import functools
 import pathlib
 import subprocess
 import sys
 import tempfile
 import unittest
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import programs
+from programs import digest
+
 SURVEY = sys.argv.pop(1)
+run = functools.partial(programs.run, SURVEY)
 RANGE, BINS = 20, 256
 SMALL = ["--length", "15", "--width", "20", "--between", "20", "--range", RANGE, "--bins", BINS, "--page", "100",
          "--turn-rate", "30", "--altitude", "4", "--altitude-change", "1", "--seed", "4"]
-
-
-def run(*options, expect=0):
-    result = subprocess.run([SURVEY, *map(str, options)], capture_output=True, text=True, timeout=300)
-    assert result.returncode == expect, f"exit {result.returncode}, expected {expect}:\n{result.stdout}{result.stderr}"
-    return result.stdout + result.stderr
-
-
-def digest(folder):
-    return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
-            for path in sorted(pathlib.Path(folder).rglob("*")) if path.is_file()}
 
 
 def read_pgm(path):

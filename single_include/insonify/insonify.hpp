@@ -16720,6 +16720,760 @@ inline heightfield from_image(image_view<const float> picture, double spacing, f
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/sonar/overhead/detail/undecided_light.hpp ----------------------------------------
+// Input of the shadow pass: the pixels whose light is undecided, and how much may arrive there.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// Marks pixels, eight to a byte; rows start a byte.
+class pixel_marks {
+  public:
+    pixel_marks() = default;
+    pixel_marks(int width, int height, const shared_pool& memory)
+        : bytes_((width + 7) / 8, height, uninitialized{}, memory) {}
+
+    /// Clears a rectangle that starts and, unless at the image's edge, ends at a multiple of 8.
+    void clear(const rect& pixels) {
+        for (int y = pixels.y0; y < pixels.y1; ++y)
+            std::fill_n(&bytes_(pixels.x0 / 8, y), (pixels.width() + 7) / 8, std::uint8_t{0});
+    }
+    /// Replaces the marks of the pixels in `which` (bit i is pixel x + i) by those in `marks`; all lie in one byte.
+    INSONIFY_INLINE void set(int x, int y, unsigned which, unsigned marks) {
+        std::uint8_t& byte = bytes_(x / 8, y);
+        byte = static_cast<std::uint8_t>((byte & ~(which << x % 8)) | (marks & which) << x % 8);
+    }
+    void set(int x, int y) { set(x, y, 1, 1); }
+    /// Clears a mark.
+    /// @returns whether it was set
+    bool take(int x, int y) {
+        std::uint8_t& byte = bytes_(x / 8, y);
+        const unsigned bit = 1u << x % 8, before = byte;
+        byte = static_cast<std::uint8_t>(before & ~bit);
+        return (before & bit) != 0;
+    }
+
+  private:
+    image<std::uint8_t> bytes_;
+};
+
+/// A pixel whose light is undecided, of one tile.
+struct undecided_pixel {
+    std::uint16_t column, row;  ///< within the tile
+    std::uint32_t id;           ///< of its triangle, counted over all surfaces
+    float direct;               ///< light that the source adds if nothing blocks it
+};
+
+/// Output of shading for the shadow pass: a list for each tile, as few pixels are undecided.
+///
+/// A pixel whose triangle is known to be lit gets all its light at once, any other its sky and ambient light. Entries
+/// of pixels that a nearer surface overwrites stay listed; of a marked pixel, the last entry is valid.
+class undecided_light {
+  public:
+    undecided_light() = default;
+    /// @param tile  pixels, a power of 2
+    undecided_light(int width, int height, int tile, const shared_pool& memory)
+        : tiles_(width, height, std::countr_zero(static_cast<unsigned>(tile))), marks_(width, height, memory) {
+        std::size_t start = 0;
+        for (std::size_t i = 0; i < tiles_.count(); ++i) {
+            // A quarter more than the tile's pixels, so that remove_hidden() rarely runs.
+            const rect shown_in = tiles_.pixels(i, width, height);
+            const auto shown = static_cast<std::size_t>(shown_in.width()) * static_cast<std::size_t>(shown_in.height());
+            lists_.push_back({start, 0, shown + shown / 4 + 8});
+            start += lists_.back().room;
+        }
+        pixels_ = uninitialized_array<undecided_pixel>(start, memory);
+    }
+
+    /// Empties the list of a tile.
+    void clear(const rect& tile) {
+        marks_.clear(tile);
+        lists_[tiles_.at(tile.x0, tile.y0)].count = 0;
+    }
+
+    /// Lists the undecided pixels of up to N in a row, whose marks lie in one byte, and discards earlier entries of all
+    /// pixels in `which`.
+    /// @param which      pixels that are shaded, bit by bit
+    /// @param undecided  those of them whose light is undecided
+    template <int N>
+    INSONIFY_INLINE void set(int x, int y, unsigned which, unsigned undecided,
+                             const std::uint32_t (&triangles)[static_cast<unsigned>(N)], std::uint32_t first_id,
+                             const lanes<float, N>& direct) {
+        marks_.set(x, y, which, 0);
+        if (undecided == 0) return;
+        const std::size_t tile = tiles_.at(x, y);
+        list& into = lists_[tile];
+        if (into.count + N > into.room) remove_hidden(tile);
+        marks_.set(x, y, undecided, undecided);
+        float values[static_cast<unsigned>(N)];
+        store(values, direct);
+        const int mask = (1 << tiles_.log2_size) - 1;
+        for (unsigned left = undecided; left != 0; left &= left - 1) {
+            const int k = std::countr_zero(left);
+            pixels_[into.start + into.count++] = {static_cast<std::uint16_t>((x + k) & mask),
+                                                  static_cast<std::uint16_t>(y & mask), first_id + triangles[k],
+                                                  values[k]};
+        }
+    }
+
+    /// Marks a pixel of a list again.
+    void mark(int x, int y) { marks_.set(x, y); }
+
+    /// Calls visit(pixel) for each undecided pixel of a tile and clears its mark.
+    template <class Visit>
+    void take(std::size_t tile, const Visit& visit) {
+        const list& from = lists_[tile];
+        const glm::ivec2 corner = tiles_.corner(tile);
+        for (std::size_t i = from.count; i-- > 0;) {
+            const undecided_pixel& p = pixels_[from.start + i];
+            if (marks_.take(corner.x + p.column, corner.y + p.row)) visit(p);
+        }
+    }
+
+  private:
+    /// Of the pixels of a tile.
+    struct list {
+        std::size_t start, count, room;
+    };
+
+    /// Removes entries that are not valid.
+    INSONIFY_RARE void remove_hidden(std::size_t tile) {
+        list& of = lists_[tile];
+        undecided_pixel* const start = pixels_.data() + of.start;
+        undecided_pixel *const end = start + of.count, *last = end;
+        take(tile, [&](const undecided_pixel p) { *--last = p; });
+        of.count = static_cast<std::size_t>(std::copy(last, end, start) - start);
+        const glm::ivec2 corner = tiles_.corner(tile);
+        for (std::size_t i = 0; i < of.count; ++i) mark(corner.x + start[i].column, corner.y + start[i].row);
+    }
+
+    tile_grid tiles_{0, 0, 0};
+    pixel_marks marks_;
+    uninitialized_array<undecided_pixel> pixels_;
+    dynamic_array<list> lists_;  ///< by tile
+};
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/overhead/detail/shading.hpp ------------------------------------------------
+// Shaders of overhead pictures: light of each visible pixel, over SIMD lanes.
+//
+// Shadows of undecided triangles, and labels, are later passes over the images written here (render.hpp).
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// A mesh in the rig's frame.
+struct placed_mesh {
+    mesh_view shape;
+    bounding_box box;  ///< of the shape, in its own frame
+    affine to_rig;
+    surface_kind kind = surface_kind::open;
+    const regular_grid* grid = nullptr;  ///< see shared_mesh
+};
+
+/// Varyings, in the rig's frame. Horizontal coordinates follow from the pixel.
+struct surface_varyings {
+    glm::vec3 normal;
+    float height;
+};
+
+/// Vertex shader of a mesh in the rig's picture.
+struct surface_vertex_shader {
+    const overhead_geometry& view;
+    glm::mat3 linear;
+    glm::vec3 offset;
+    glm::mat3 normals;
+
+    surface_vertex_shader(const overhead_geometry& rig, const placed_mesh& shape)
+        : view(rig),
+          linear(shape.to_rig.linear),
+          offset(shape.to_rig.offset),
+          normals(numeric::cofactors(shape.to_rig.linear)) {}
+
+    placed_vertex<surface_varyings> operator()(const vertex& v) const {
+        const glm::vec3 position = numeric::product(linear, v.position) + offset;
+        return {view.clip(position), {numeric::product(normals, v.normal), position.z}};
+    }
+    /// See vertex_lane_shader.
+    template <class Floats>
+    INSONIFY_INLINE void operator()(Floats (&clip)[4], Floats* varyings, const Floats (&position)[3],
+                                    const Floats (&normal)[3]) const {
+        Floats placed[3];
+        numeric::product(placed, linear, position);
+        for (int i = 0; i < 3; ++i) placed[i] = placed[i] + offset[i];
+        numeric::product(varyings, normals, normal);
+        varyings[3] = placed[2];
+        view.clip(clip, placed);
+    }
+};
+
+/// The bottom or a target, for the passes over the picture.
+struct surface {
+    placed_mesh placed;
+    std::uint32_t first_id = 0;               ///< of its triangles in the visibility buffer
+    std::uint32_t caster = 0;                 ///< index into the casters
+    std::uint16_t instance = 0;               ///< as in labels::instance
+    std::uint8_t seabed = 0;                  ///< as in labels::seabed, if there are no types
+    material whole;                           ///< if there are no types
+    const seabed::type* types = nullptr;      ///< by vertex, of a bottom of several types
+    const material* materials = nullptr;      ///< by type
+    std::uint16_t self_shadow_label = 0;      ///< label in labels::shadow where the surface shades itself
+    const shadow::decision* known = nullptr;  ///< lit, dark or undecided, by triangle; null if none is decided
+};
+
+/// The images that shading writes; null pointers are optional.
+struct shaded_images {
+    image<float>& picture;
+    undecided_light* undecided = nullptr;    ///< if there is a shadow policy
+    bool marks_dark = false;                 ///< pixels that the source cannot light are undecided too, for labels
+    image<std::uint32_t>* ids = nullptr;     ///< the visibility buffer
+    image<std::uint8_t>* types = nullptr;    ///< seabed::type, of bottoms of several types
+    image<std::uint16_t>* shadow = nullptr;  ///< labels of known casters, as in labels::shadow
+
+    void clear(const rect& tile) const {
+        if (undecided != nullptr) undecided->clear(tile);
+        for (int y = tile.y0; y < tile.y1; ++y) {
+            std::fill_n(&picture(tile.x0, y), tile.width(), 0.0f);
+            if (ids != nullptr) std::fill_n(&(*ids)(tile.x0, y), tile.width(), shadow::invalid_id);
+        }
+    }
+};
+
+/// Fragment shader over lanes of one surface.
+template <class Law>
+class surface_shader {
+  public:
+    surface_shader(const overhead_geometry& view, const surface& object, const Law& law, const shaded_images& into)
+        : object_(object),
+          into_(into),
+          law_(law),
+          is_near_(view.has_near_light()),
+          left_(0.5f * static_cast<float>(1 - view.rig().size.x)),
+          top_(0.5f * static_cast<float>(view.rig().size.y - 1)),
+          ray_step_(static_cast<float>(view.ray_step())),
+          altitude_(view.rig().altitude),
+          intensity_(view.rig().intensity),
+          sky_(view.rig().sky),
+          ambient_(view.rig().ambient) {
+        const glm::vec3 light(is_near_ ? view.light_position() : view.light().to_light());
+        for (int i = 0; i < 3; ++i) to_light_[i] = light[i];
+    }
+
+    void clear(const rect& tile) const { into_.clear(tile); }
+
+    template <int N>
+    INSONIFY_INLINE void operator()(const fragment_lanes<N, surface_varyings>& f) const {
+        using ints = lanes<std::int32_t, N>;
+        using floats = lanes<float, N>;
+        const floats side = f.front ? floats{} + 1.0f : floats{} - 1.0f;
+        floats normal[3], length, to_light[3];
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.interpolate(normal[i], i); });
+        const floats square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+        const ints invalid = f.visible & ~(ints(square > 0x1p-40f) & ints(square < 0x1p100f));
+        if (any(invalid)) use_facets<N>(normal, f, invalid);
+        square_root<N>(length, normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+        length = length > 0.0f ? length : floats{} + 1.0f;
+        const floats turned = side / length;
+        point_to_light<N>(to_light, f);
+        floats sine = turned * (normal[0] * to_light[0] + normal[1] * to_light[1] + normal[2] * to_light[2]);
+        sine = sine < 1.0f ? sine : floats{} + 1.0f;
+        sine = sine > 0.0f ? sine : floats{};
+
+        floats reflectivity = floats{} + object_.whole.reflectivity;
+        if (object_.types != nullptr) {
+            std::uint8_t types[static_cast<unsigned>(N)];
+            for (int k = 0; k < N; ++k) {
+                types[k] = type_at(f, k);
+                if (into_.types != nullptr && lane(f.visible, k) != 0) (*into_.types)(f.x + k, f.y) = types[k];
+            }
+            gather<N>(reflectivity, [&](int k) { return object_.materials[types[k]].reflectivity; });
+        }
+        floats direct, intensity, sky, ambient;
+        law<N>(direct, sine);
+        load(intensity, intensity_), load(sky, sky_), load(ambient, ambient_);
+        direct = sine > 0.0f ? reflectivity * intensity * direct : floats{};
+        const floats rest = reflectivity * (sky * (0.5f * (1.0f + turned * normal[2])) + ambient);
+        const floats one = floats{} + 1.0f, sum = rest + direct;
+        const floats all = sum < one ? sum : one;
+        if (into_.undecided == nullptr)
+            f.store(into_.picture, all);
+        else
+            store_known<N>(f, all, rest, direct);
+        if (into_.ids == nullptr) return;
+        lanes<std::uint32_t, N> ids;
+        load(ids, f.triangles);
+        f.store(*into_.ids, lanes<std::uint32_t, N>(ids + object_.first_id));
+    }
+
+  private:
+    /// Stores the light of pixels whose triangles are known to be lit or dark, and lists the others as undecided.
+    /// @param all  light if nothing blocks the source
+    template <int N>
+    INSONIFY_INLINE void store_known(const fragment_lanes<N, surface_varyings>& f, const lanes<float, N>& all,
+                                     const lanes<float, N>& rest, const lanes<float, N>& direct) const {
+        using ints = lanes<std::int32_t, N>;
+        using floats = lanes<float, N>;
+        floats value = rest < 1.0f ? rest : floats{} + 1.0f;
+        ints undecided = into_.marks_dark ? ints{} - 1 : ints(direct > 0.0f), is_dark{};
+        if (object_.known != nullptr) {
+            ints known;
+            gather<N>(known, [&](int k) { return static_cast<std::int32_t>(object_.known[f.triangles[k]]); });
+            const ints is_lit = ints(known == static_cast<std::int32_t>(shadow::decision::lit));
+            is_dark = ints(known == static_cast<std::int32_t>(shadow::decision::dark));
+            value = is_lit ? all : value;
+            undecided = undecided & ints(known == static_cast<std::int32_t>(shadow::decision::undecided));
+        }
+        f.store(into_.picture, value);
+        if (into_.shadow != nullptr) {
+            lanes<std::uint16_t, N> caster;
+            convert(caster, is_dark ? ints{} + static_cast<std::int32_t>(object_.self_shadow_label) : ints{});
+            f.store(*into_.shadow, caster);
+        }
+        static_assert(N <= 8);
+        const unsigned which = movemask<N>(f.visible);
+        into_.undecided->set<N>(f.x, f.y, which, movemask<N>(undecided) & which, f.triangles, object_.first_id, direct);
+    }
+
+    /// Replaces normals that are zero or not finite by the facet's.
+    template <int N>
+    INSONIFY_RARE void use_facets(lanes<float, N> (&normal)[3], const fragment_lanes<N, surface_varyings>& f,
+                                  const lanes<std::int32_t, N>& where) const {
+        for (int k = 0; k < N; ++k) {
+            if (lane(where, k) == 0) continue;
+            const glm::uvec3& t = object_.placed.shape.triangles[f.triangles[k]];
+            const auto corner = [&](int i) {
+                return transform_point(object_.placed.to_rig, glm::dvec3(object_.placed.shape.positions[t[i]]));
+            };
+            const glm::dvec3 facet = unit(numeric::cross(corner(1) - corner(0), corner(2) - corner(0)));
+            for (int i = 0; i < 3; ++i) set_lane(normal[i], k, static_cast<float>(facet[i]));
+        }
+    }
+
+    /// The seabed's type at the vertex with the largest weight.
+    template <int N>
+    INSONIFY_INLINE std::uint8_t type_at(const fragment_lanes<N, surface_varyings>& f, int k) const {
+        const glm::uvec3& t = object_.placed.shape.triangles[f.triangles[k]];
+        const float a = lane(f.weights[0], k), b = lane(f.weights[1], k), c = lane(f.weights[2], k);
+        return static_cast<std::uint8_t>(object_.types[a >= b ? (a >= c ? t.x : t.z) : (b >= c ? t.y : t.z)]);
+    }
+
+    /// Sets the unit vector to the light.
+    template <int N>
+    INSONIFY_INLINE void point_to_light(lanes<float, N> (&into)[3],
+                                        const fragment_lanes<N, surface_varyings>& f) const {
+        using floats = lanes<float, N>;
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { load(into[i], to_light_[i]); });
+        if (!is_near_) return;
+        floats altitude, step, column, height, square = floats{}, length;
+        load(altitude, altitude_), load(step, ray_step_);
+        iota<float, N>(column);
+        f.interpolate(height, 3);
+        const floats down = altitude - height;
+        const floats position[3] = {(column + (static_cast<float>(f.x) + left_)) * step * down,
+                                    (top_ - static_cast<float>(f.y)) * step * down, height};
+        for (int i = 0; i < 3; ++i) {
+            into[i] = into[i] - position[i];
+            square = square + into[i] * into[i];
+        }
+        square_root<N>(length, square);
+        length = length > 0.0f ? length : floats{} + 1.0f;
+        for (int i = 0; i < 3; ++i) into[i] = into[i] / length;
+    }
+
+    template <int N>
+    INSONIFY_INLINE void law(lanes<float, N>& into, const lanes<float, N>& sine) const {
+        if constexpr (requires { law_.in_lanes(into, sine); })
+            law_.in_lanes(into, sine);
+        else
+            gather<N>(into, [&](int k) { return static_cast<float>(law_(lane(sine, k))); });
+    }
+
+    const surface& object_;
+    shaded_images into_;
+    Law law_;
+    bool is_near_;
+    float left_, top_;           ///< from the picture's middle to the first pixel's centre, in pixels
+    broadcast<float> ray_step_;  ///< see overhead_geometry::ray_step
+    broadcast<float> altitude_, intensity_, sky_, ambient_;  ///< the rig's
+    broadcast<float> to_light_[3];                           ///< unit vector, or the position of a near light
+};
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/overhead/detail/shadow_points.hpp ------------------------------------------
+// Points that pixels show and that a shadow policy tests, and the answers.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// Points that pixels show, as arrays of equal length.
+struct point_batch {
+    uninitialized_array<double> x, y, z;
+    uninitialized_array<std::uint32_t> mesh, triangle;
+    uninitialized_array<std::uint32_t> pixel;  ///< of the picture
+    uninitialized_array<float> direct;         ///< light that arrives there if nothing blocks it
+
+    explicit point_batch(std::size_t count, const shared_pool& memory = {})
+        : x(count, memory),
+          y(count, memory),
+          z(count, memory),
+          mesh(count, memory),
+          triangle(count, memory),
+          pixel(count, memory),
+          direct(count, memory) {}
+
+    shadow::points part(std::size_t first, std::size_t n) const {
+        const auto some = [&](const auto& array) { return std::span(array).subspan(first, n); };
+        return {some(x), some(y), some(z), some(mesh), some(triangle)};
+    }
+};
+
+/// Points that are tested for shadows, in a part of a batch: those that face the light from its front, those that face
+/// away from its back.
+class point_list {
+  public:
+    std::size_t facing = 0, averted = 0;
+
+    /// @param room         the batch to fill
+    /// @param first, last  the range of it for this list
+    point_list(point_batch& room, std::size_t first, std::size_t last) : room_(&room), first_(first), last_(last) {}
+
+    std::size_t size() const { return facing + averted; }
+    shadow::points facing_points() const { return room_->part(first_, facing); }
+    shadow::points averted_points() const { return room_->part(last_ - averted, averted); }
+    /// The pixel, its light and the caster of a point; facing ones are counted first.
+    std::size_t pixel(std::size_t point) const { return room_->pixel[at(point)]; }
+    float direct(std::size_t point) const { return room_->direct[at(point)]; }
+    std::uint32_t caster(std::size_t point) const { return room_->mesh[at(point)]; }
+
+    INSONIFY_INLINE void add(bool is_facing, double x, double y, double z, std::uint32_t mesh, std::uint32_t triangle,
+                             std::uint32_t pixel, float direct) {
+        const std::size_t to = is_facing ? first_ + facing++ : last_ - ++averted;
+        room_->x[to] = x;
+        room_->y[to] = y;
+        room_->z[to] = z;
+        room_->mesh[to] = mesh;
+        room_->triangle[to] = triangle;
+        room_->pixel[to] = pixel;
+        room_->direct[to] = direct;
+    }
+
+  private:
+    std::size_t at(std::size_t point) const {
+        return point < facing ? first_ + point : last_ - averted + (point - facing);
+    }
+
+    point_batch* room_;
+    std::size_t first_, last_;
+};
+
+/// Memory for the results of points.
+struct light_arrays {
+    uninitialized_array<float> lit;
+    uninitialized_array<std::uint32_t> caster;
+
+    explicit light_arrays(std::size_t points, const shared_pool& memory = {})
+        : lit(points, memory), caster(points, memory) {}
+    shadow::results part(std::size_t first, std::size_t count) {
+        return {std::span(lit).subspan(first, count), std::span(caster).subspan(first, count)};
+    }
+};
+
+/// Points that face the light concern all casters; those that face away only need the targets, for labels.
+/// @param targets  casters numbered below this are targets
+inline shadow::points batch(shadow::points all, bool face_light, std::uint32_t targets) {
+    if (!face_light) all.casters = targets;
+    all.face_light = face_light;
+    return all;
+}
+
+/// Visits the batches of a list, and where their answers go.
+template <class Visit>
+void for_each_batch(const point_list& points, const shadow::results& all, std::uint32_t targets, const Visit& visit) {
+    if (points.facing > 0)
+        visit(batch(points.facing_points(), true, targets),
+              shadow::results{all.lit.first(points.facing), all.caster.first(points.facing)});
+    if (points.averted > 0)
+        visit(batch(points.averted_points(), false, targets),
+              shadow::results{all.lit.subspan(points.facing), all.caster.subspan(points.facing)});
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/overhead/detail/point_pass.hpp ---------------------------------------------
+// Computes the surface points of undecided pixels, and whether each faces the light.
+//
+// The point is where the ray through the pixel's centre meets the plane of the pixel's triangle, in doubles, held to
+// the triangle: rounding to sub-pixels may show a triangle beside its edge. Everything is computed in the mesh's own
+// frame, in which the camera and the light are placed once.
+//
+// Based on: Christopher A. Burns, Warren A. Hunt. The Visibility Buffer: A Cache-Friendly Approach to Deferred Shading.
+// JCGT 2, 2013. Tomas Moeller, Ben Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// The camera and the light from an object's own frame.
+struct view_from_object {
+    glm::dvec3 eye;                      ///< the camera
+    glm::dvec3 corner_ray, right, down;  ///< rays through pixels: of pixel (0, 0), and from pixel to pixel
+    glm::dvec3 light;                    ///< towards a parallel light, or where a near one is
+
+    view_from_object(const overhead_geometry& view, const affine& to_rig) {
+        const affine back = inverse(to_rig);
+        eye = transform_point(back, view.eye());
+        corner_ray = transform_direction(back, view.ray(0, 0));
+        right = transform_direction(back, view.ray(1, 0) - view.ray(0, 0));
+        down = transform_direction(back, view.ray(0, 1) - view.ray(0, 0));
+        light = view.has_near_light() ? transform_point(back, view.light_position())
+                                      : transform_direction(back, view.light().to_light());
+    }
+};
+
+/// A pixel whose point is looked for.
+struct shown_pixel {
+    std::uint16_t column, row;  ///< within the tile
+    std::uint32_t triangle;
+    float direct;  ///< see point_batch
+};
+
+/// Finds the points of some pixels of one object.
+struct point_kernel {
+    const surface& object;
+    const view_from_object& from;
+    std::span<const shown_pixel> pixels;
+    bool has_near_light;
+    bool includes_averted;
+    const rect& box;      ///< the tile's pixels
+    std::uint32_t pitch;  ///< pixels from one row of the picture to the next
+    point_list& points;
+
+    template <int Width>
+    INSONIFY_INLINE void run() const {
+        constexpr int N = Width > 1 ? Width / 2 : 1;
+        for (std::size_t i = 0; i < pixels.size(); i += N) {
+            prefetch_ahead<N>(i);
+            find<N>(i, (std::min)(pixels.size() - i, std::size_t{N}));
+        }
+    }
+
+  private:
+    /// Prefetches the triangles of pixels a few rounds ahead of `i`, and the vertices of those fetched before.
+    template <int N>
+    INSONIFY_INLINE void prefetch_ahead(std::size_t i) const {
+        const mesh_view& m = object.placed.shape;
+        const auto some = [&](int rounds) {
+            const std::size_t first = (std::min)(i + static_cast<std::size_t>(rounds * N), pixels.size());
+            return pixels.subspan(first, (std::min)(pixels.size() - first, std::size_t{N}));
+        };
+        for (const shown_pixel& p : some(4)) prefetch(&m.triangles[p.triangle]);
+        for (const shown_pixel& p : some(2))
+            for (int k = 0; k < 3; ++k) prefetch(&m.positions[m.triangles[p.triangle][k]]);
+    }
+    template <class Reals>
+    INSONIFY_INLINE static void cross(Reals (&into)[3], const Reals (&a)[3], const Reals (&b)[3]) {
+        into[0] = a[1] * b[2] - b[1] * a[2];
+        into[1] = a[2] * b[0] - b[2] * a[0];
+        into[2] = a[0] * b[1] - b[0] * a[1];
+    }
+    template <class Reals>
+    INSONIFY_INLINE static void dot(Reals& into, const Reals (&a)[3], const Reals (&b)[3]) {
+        into = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    }
+    template <int N>
+    using corners = const glm::uvec3 * [static_cast<unsigned>(N)];
+
+    /// The vectors at one corner of each triangle. Whole rows of four floats are read where none is the array's last.
+    template <int N>
+    INSONIFY_INLINE static void fetch(lanes<float, N> (&into)[3], const glm::vec3* vectors, const corners<N>& t,
+                                      int corner, bool has_last) {
+#if INSONIFY_SIMD
+        if constexpr (N >= 4) {
+            if (!has_last) {
+                lanes<float, N> columns[4];
+                transpose<N>(columns, [&](int k) { return &vectors[(*t[k])[corner]].x; });
+                unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA { into[axis] = columns[axis]; });
+                return;
+            }
+        }
+#endif
+        (void)has_last;
+        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
+            gather<N>(into[axis], [&](int k) { return vectors[(*t[k])[corner]][axis]; });
+        });
+    }
+    template <int N>
+    INSONIFY_INLINE static void fetch(lanes<double, N> (&into)[3], const glm::vec3* vectors, const corners<N>& t,
+                                      int corner, bool has_last) {
+        lanes<float, N> narrow[3];
+        fetch<N>(narrow, vectors, t, corner, has_last);
+        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA { convert(into[axis], narrow[axis]); });
+    }
+
+    template <int N>
+    INSONIFY_INLINE void find(std::size_t start, std::size_t count) const {
+        using reals = lanes<double, N>;
+        using bits = lanes<std::int64_t, N>;
+        const mesh_view& m = object.placed.shape;
+        const affine& to_rig = object.placed.to_rig;
+        corners<N> t;
+        std::uint32_t greatest = 0;
+        reals column, row;
+        const auto pixel = [&](int k) -> const shown_pixel& {
+            return pixels[start + (std::min)(static_cast<std::size_t>(k), count - 1)];
+        };
+        for (int k = 0; k < N; ++k) {
+            t[k] = &m.triangles[pixel(k).triangle];
+            greatest = (std::max)(greatest, (std::max)((std::max)(t[k]->x, t[k]->y), t[k]->z));
+        }
+        gather<N>(column, [&](int k) { return static_cast<double>(box.x0 + pixel(k).column); });
+        gather<N>(row, [&](int k) { return static_cast<double>(box.y0 + pixel(k).row); });
+        const bool has_last = greatest + 1 >= m.positions.size();
+
+        // Where the ray through each pixel meets its triangle: a + b ab + c ac.
+        reals a[3], ab[3], ac[3], ray[3], to_eye[3], p[3], q[3], scale, b, c;
+        fetch<N>(a, m.positions.data(), t, 0, has_last);
+        fetch<N>(ab, m.positions.data(), t, 1, has_last);
+        fetch<N>(ac, m.positions.data(), t, 2, has_last);
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+            ab[i] = ab[i] - a[i];
+            ac[i] = ac[i] - a[i];
+            ray[i] = from.corner_ray[i] + row * from.down[i] + column * from.right[i];
+            to_eye[i] = from.eye[i] - a[i];
+        });
+        cross(p, ray, ac);
+        cross(q, to_eye, ab);
+        dot(scale, ab, p);
+        scale = 1.0 / scale;
+        dot(b, to_eye, p);
+        dot(c, ray, q);
+        b = b * scale;
+        c = c * scale;
+        const bits inside = bits(b >= border) & bits(c >= border) & bits(b + c <= 1.0 - border);
+        if (any(bits(inside == 0))) hold_inside<N>(b, c);
+
+        // Which side of the facet is seen, and whether the light meets it.
+        reals at[3], facet[3], toward[3], seen, along, size, way;
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+            at[i] = a[i] + b * ab[i] + c * ac[i];
+            toward[i] = has_near_light ? from.light[i] - at[i] : reals{} + from.light[i];
+        });
+        cross(facet, ab, ac);
+        dot(seen, facet, to_eye);
+        dot(along, facet, toward);
+        dot(size, facet, facet);
+        dot(way, toward, toward);
+        along = seen > 0.0 ? along : 0.0 - along;
+        const bits faces = bits(along > 0.0) & bits(along * along > (grazed * grazed * size) * way);
+        double places[3][static_cast<unsigned>(N)];
+        std::int64_t facing[static_cast<unsigned>(N)];
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+            store(places[i], reals(to_rig.linear[0][i] * at[0] + to_rig.linear[1][i] * at[1] +
+                                   to_rig.linear[2][i] * at[2] + to_rig.offset[i]));
+        });
+        store(facing, faces);
+        for (std::size_t k = 0; k < count; ++k) {
+            if (facing[k] == 0 && !includes_averted) continue;
+            const shown_pixel& shown = pixels[start + k];
+            points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], object.caster, shown.triangle,
+                       static_cast<std::uint32_t>(box.y0 + shown.row) * pitch +
+                           static_cast<std::uint32_t>(box.x0 + shown.column),
+                       shown.direct);
+        }
+    }
+
+    /// Facets at a smaller sine to the light count as facing away: vertices are rounded to 2^-24, and facets
+    /// parallel to the light up to that error are dark.
+    static constexpr double grazed = 0x1p-22;
+
+    /// Points keep this barycentric distance from the edges of their triangle: a point on an edge would lie in the
+    /// adjacent triangle, too, which then would not block it.
+    static constexpr double border = 0x1p-20;
+
+    /// Rounding to sub-pixels may show a triangle beside its edge; one seen from its edge gives NaN or infinity.
+    template <int N>
+    INSONIFY_RARE static void hold_inside(lanes<double, N>& b, lanes<double, N>& c) {
+        using reals = lanes<double, N>;
+        const auto clamp = [](reals& x) INSONIFY_INLINE_LAMBDA {
+            x = x > border ? x : reals{} + border;
+            x = x < 0x1p60 ? x : reals{} + 0x1p60;
+        };
+        clamp(b);
+        clamp(c);
+        const reals sum = b + c, scale = sum > 1.0 - border ? (1.0 - border) / sum : reals{} + 1.0;
+        b = b * scale;
+        c = c * scale;
+    }
+};
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/overhead/detail/picture_casters.hpp ----------------------------------------
+// Casters for the shadow policies of an overhead picture.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// A mesh as a caster, and which of its triangles may be skipped for points that the camera sees.
+///
+/// A ray that starts outside of a closed mesh and hits it enters it through a triangle that faces away from the light,
+/// so triangles that face the light may be skipped. What a camera outside of the mesh sees lies outside. The same holds
+/// for a heightfield's own points if camera and light are above it: rays leave its bounds above the surface.
+inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh& m) {
+    const view_from_object from(view, m.to_rig);
+    const auto is_outside = [&](const glm::dvec3& p) {
+        bool outside = false;
+        for (int i = 0; i < 3; ++i) outside = outside || p[i] < m.box.lower[i] || p[i] > m.box.upper[i];
+        return outside;
+    };
+    const auto is_above = [&](const glm::dvec3& p) { return p.z > m.box.upper.z; };
+    const bool is_lit_from_above = view.has_near_light() ? is_above(from.light) : from.light.z > 0;
+    const bool is_lit_from_outside = !view.has_near_light() || is_outside(from.light);
+    shadow::skip may_skip = shadow::skip::nothing;
+    if (m.kind == surface_kind::closed && is_outside(from.eye) && is_lit_from_outside) may_skip = shadow::skip::facing;
+    if (m.kind == surface_kind::heightfield && is_above(from.eye) && is_lit_from_above)
+        may_skip = shadow::skip::facing_its_own;
+    return {m.shape, m.to_rig, m.box, may_skip, m.grid};
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/sample.hpp ----------------------------------------------------------------
 // Samples a seabed model at the vertices of a grid, a row per task.
 
@@ -17079,402 +17833,6 @@ inline ground_rect casting_ground(const overhead_geometry& view, const seabed::h
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/overhead/detail/undecided_light.hpp ----------------------------------------
-// Input of the shadow pass: the pixels whose light is undecided, and how much may arrive there.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace detail::inline INSONIFY_FLAGS {
-
-/// Marks pixels, eight to a byte; rows start a byte.
-class pixel_marks {
-  public:
-    pixel_marks() = default;
-    pixel_marks(int width, int height, const shared_pool& memory)
-        : bytes_((width + 7) / 8, height, uninitialized{}, memory) {}
-
-    /// Clears a rectangle that starts and, unless at the image's edge, ends at a multiple of 8.
-    void clear(const rect& pixels) {
-        for (int y = pixels.y0; y < pixels.y1; ++y)
-            std::fill_n(&bytes_(pixels.x0 / 8, y), (pixels.width() + 7) / 8, std::uint8_t{0});
-    }
-    /// Replaces the marks of the pixels in `which` (bit i is pixel x + i) by those in `marks`; all lie in one byte.
-    INSONIFY_INLINE void set(int x, int y, unsigned which, unsigned marks) {
-        std::uint8_t& byte = bytes_(x / 8, y);
-        byte = static_cast<std::uint8_t>((byte & ~(which << x % 8)) | (marks & which) << x % 8);
-    }
-    void set(int x, int y) { set(x, y, 1, 1); }
-    /// Clears a mark.
-    /// @returns whether it was set
-    bool take(int x, int y) {
-        std::uint8_t& byte = bytes_(x / 8, y);
-        const unsigned bit = 1u << x % 8, before = byte;
-        byte = static_cast<std::uint8_t>(before & ~bit);
-        return (before & bit) != 0;
-    }
-
-  private:
-    image<std::uint8_t> bytes_;
-};
-
-/// A pixel whose light is undecided, of one tile.
-struct undecided_pixel {
-    std::uint16_t column, row;  ///< within the tile
-    std::uint32_t id;           ///< of its triangle, counted over all surfaces
-    float direct;               ///< light that the source adds if nothing blocks it
-};
-
-/// Output of shading for the shadow pass: a list for each tile, as few pixels are undecided.
-///
-/// A pixel whose triangle is known to be lit gets all its light at once, any other its sky and ambient light. Entries
-/// of pixels that a nearer surface overwrites stay listed; of a marked pixel, the last entry is valid.
-class undecided_light {
-  public:
-    undecided_light() = default;
-    /// @param tile  pixels, a power of 2
-    undecided_light(int width, int height, int tile, const shared_pool& memory)
-        : tiles_(width, height, std::countr_zero(static_cast<unsigned>(tile))), marks_(width, height, memory) {
-        std::size_t start = 0;
-        for (std::size_t i = 0; i < tiles_.count(); ++i) {
-            // A quarter more than the tile's pixels, so that remove_hidden() rarely runs.
-            const rect shown_in = tiles_.pixels(i, width, height);
-            const auto shown = static_cast<std::size_t>(shown_in.width()) * static_cast<std::size_t>(shown_in.height());
-            lists_.push_back({start, 0, shown + shown / 4 + 8});
-            start += lists_.back().room;
-        }
-        pixels_ = uninitialized_array<undecided_pixel>(start, memory);
-    }
-
-    /// Empties the list of a tile.
-    void clear(const rect& tile) {
-        marks_.clear(tile);
-        lists_[tiles_.at(tile.x0, tile.y0)].count = 0;
-    }
-
-    /// Lists the undecided pixels of up to N in a row, whose marks lie in one byte, and discards earlier entries of all
-    /// pixels in `which`.
-    /// @param which      pixels that are shaded, bit by bit
-    /// @param undecided  those of them whose light is undecided
-    template <int N>
-    INSONIFY_INLINE void set(int x, int y, unsigned which, unsigned undecided,
-                             const std::uint32_t (&triangles)[static_cast<unsigned>(N)], std::uint32_t first_id,
-                             const lanes<float, N>& direct) {
-        marks_.set(x, y, which, 0);
-        if (undecided == 0) return;
-        const std::size_t tile = tiles_.at(x, y);
-        list& into = lists_[tile];
-        if (into.count + N > into.room) remove_hidden(tile);
-        marks_.set(x, y, undecided, undecided);
-        float values[static_cast<unsigned>(N)];
-        store(values, direct);
-        const int mask = (1 << tiles_.log2_size) - 1;
-        for (unsigned left = undecided; left != 0; left &= left - 1) {
-            const int k = std::countr_zero(left);
-            pixels_[into.start + into.count++] = {static_cast<std::uint16_t>((x + k) & mask),
-                                                  static_cast<std::uint16_t>(y & mask), first_id + triangles[k],
-                                                  values[k]};
-        }
-    }
-
-    /// Marks a pixel of a list again.
-    void mark(int x, int y) { marks_.set(x, y); }
-
-    /// Calls visit(pixel) for each undecided pixel of a tile and clears its mark.
-    template <class Visit>
-    void take(std::size_t tile, const Visit& visit) {
-        const list& from = lists_[tile];
-        const glm::ivec2 corner = tiles_.corner(tile);
-        for (std::size_t i = from.count; i-- > 0;) {
-            const undecided_pixel& p = pixels_[from.start + i];
-            if (marks_.take(corner.x + p.column, corner.y + p.row)) visit(p);
-        }
-    }
-
-  private:
-    /// Of the pixels of a tile.
-    struct list {
-        std::size_t start, count, room;
-    };
-
-    /// Removes entries that are not valid.
-    INSONIFY_RARE void remove_hidden(std::size_t tile) {
-        list& of = lists_[tile];
-        undecided_pixel* const start = pixels_.data() + of.start;
-        undecided_pixel *const end = start + of.count, *last = end;
-        take(tile, [&](const undecided_pixel p) { *--last = p; });
-        of.count = static_cast<std::size_t>(std::copy(last, end, start) - start);
-        const glm::ivec2 corner = tiles_.corner(tile);
-        for (std::size_t i = 0; i < of.count; ++i) mark(corner.x + start[i].column, corner.y + start[i].row);
-    }
-
-    tile_grid tiles_{0, 0, 0};
-    pixel_marks marks_;
-    uninitialized_array<undecided_pixel> pixels_;
-    dynamic_array<list> lists_;  ///< by tile
-};
-
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/sonar/overhead/detail/shading.hpp ------------------------------------------------
-// Shaders of overhead pictures: light of each visible pixel, over SIMD lanes.
-//
-// Shadows of undecided triangles, and labels, are later passes over the images written here (render.hpp).
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace detail::inline INSONIFY_FLAGS {
-
-/// A mesh in the rig's frame.
-struct placed_mesh {
-    mesh_view shape;
-    bounding_box box;  ///< of the shape, in its own frame
-    affine to_rig;
-    surface_kind kind = surface_kind::open;
-    const regular_grid* grid = nullptr;  ///< see shared_mesh
-};
-
-/// Varyings, in the rig's frame. Horizontal coordinates follow from the pixel.
-struct surface_varyings {
-    glm::vec3 normal;
-    float height;
-};
-
-/// Vertex shader of a mesh in the rig's picture.
-struct surface_vertex_shader {
-    const overhead_geometry& view;
-    glm::mat3 linear;
-    glm::vec3 offset;
-    glm::mat3 normals;
-
-    surface_vertex_shader(const overhead_geometry& rig, const placed_mesh& shape)
-        : view(rig),
-          linear(shape.to_rig.linear),
-          offset(shape.to_rig.offset),
-          normals(numeric::cofactors(shape.to_rig.linear)) {}
-
-    placed_vertex<surface_varyings> operator()(const vertex& v) const {
-        const glm::vec3 position = numeric::product(linear, v.position) + offset;
-        return {view.clip(position), {numeric::product(normals, v.normal), position.z}};
-    }
-    /// See vertex_lane_shader.
-    template <class Floats>
-    INSONIFY_INLINE void operator()(Floats (&clip)[4], Floats* varyings, const Floats (&position)[3],
-                                    const Floats (&normal)[3]) const {
-        Floats placed[3];
-        numeric::product(placed, linear, position);
-        for (int i = 0; i < 3; ++i) placed[i] = placed[i] + offset[i];
-        numeric::product(varyings, normals, normal);
-        varyings[3] = placed[2];
-        view.clip(clip, placed);
-    }
-};
-
-/// The bottom or a target, for the passes over the picture.
-struct surface {
-    mesh_view mesh;
-    affine to_rig;
-    std::uint32_t first_id = 0;               ///< of its triangles in the visibility buffer
-    std::uint32_t caster = 0;                 ///< index into the casters
-    std::uint16_t instance = 0;               ///< as in labels::instance
-    std::uint8_t seabed = 0;                  ///< as in labels::seabed, if there are no types
-    material whole;                           ///< if there are no types
-    const seabed::type* types = nullptr;      ///< by vertex, of a bottom of several types
-    const material* materials = nullptr;      ///< by type
-    std::uint16_t self_shadow_label = 0;      ///< label in labels::shadow where the surface shades itself
-    const shadow::decision* known = nullptr;  ///< lit, dark or undecided, by triangle; null if none is decided
-};
-
-/// The images that shading writes; null pointers are optional.
-struct shaded_images {
-    image<float>& picture;
-    undecided_light* undecided = nullptr;    ///< if there is a shadow policy
-    bool marks_dark = false;                 ///< pixels that the source cannot light are undecided too, for labels
-    image<std::uint32_t>* ids = nullptr;     ///< the visibility buffer
-    image<std::uint8_t>* types = nullptr;    ///< seabed::type, of bottoms of several types
-    image<std::uint16_t>* shadow = nullptr;  ///< labels of known casters, as in labels::shadow
-
-    void clear(const rect& tile) const {
-        if (undecided != nullptr) undecided->clear(tile);
-        for (int y = tile.y0; y < tile.y1; ++y) {
-            std::fill_n(&picture(tile.x0, y), tile.width(), 0.0f);
-            if (ids != nullptr) std::fill_n(&(*ids)(tile.x0, y), tile.width(), shadow::invalid_id);
-        }
-    }
-};
-
-/// Fragment shader over lanes of one surface.
-template <class Law>
-class surface_shader {
-  public:
-    surface_shader(const overhead_geometry& view, const surface& object, const Law& law, const shaded_images& into)
-        : object_(object),
-          into_(into),
-          law_(law),
-          is_near_(view.has_near_light()),
-          left_(0.5f * static_cast<float>(1 - view.rig().size.x)),
-          top_(0.5f * static_cast<float>(view.rig().size.y - 1)),
-          ray_step_(static_cast<float>(view.ray_step())),
-          altitude_(view.rig().altitude),
-          intensity_(view.rig().intensity),
-          sky_(view.rig().sky),
-          ambient_(view.rig().ambient) {
-        const glm::vec3 light(is_near_ ? view.light_position() : view.light().to_light());
-        for (int i = 0; i < 3; ++i) to_light_[i] = light[i];
-    }
-
-    void clear(const rect& tile) const { into_.clear(tile); }
-
-    template <int N>
-    INSONIFY_INLINE void operator()(const fragment_lanes<N, surface_varyings>& f) const {
-        using ints = lanes<std::int32_t, N>;
-        using floats = lanes<float, N>;
-        const floats side = f.front ? floats{} + 1.0f : floats{} - 1.0f;
-        floats normal[3], length, to_light[3];
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.interpolate(normal[i], i); });
-        const floats square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
-        const ints invalid = f.visible & ~(ints(square > 0x1p-40f) & ints(square < 0x1p100f));
-        if (any(invalid)) use_facets<N>(normal, f, invalid);
-        square_root<N>(length, normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-        length = length > 0.0f ? length : floats{} + 1.0f;
-        const floats turned = side / length;
-        point_to_light<N>(to_light, f);
-        floats sine = turned * (normal[0] * to_light[0] + normal[1] * to_light[1] + normal[2] * to_light[2]);
-        sine = sine < 1.0f ? sine : floats{} + 1.0f;
-        sine = sine > 0.0f ? sine : floats{};
-
-        floats reflectivity = floats{} + object_.whole.reflectivity;
-        if (object_.types != nullptr) {
-            std::uint8_t types[static_cast<unsigned>(N)];
-            for (int k = 0; k < N; ++k) {
-                types[k] = type_at(f, k);
-                if (into_.types != nullptr && lane(f.visible, k) != 0) (*into_.types)(f.x + k, f.y) = types[k];
-            }
-            gather<N>(reflectivity, [&](int k) { return object_.materials[types[k]].reflectivity; });
-        }
-        floats direct, intensity, sky, ambient;
-        law<N>(direct, sine);
-        load(intensity, intensity_), load(sky, sky_), load(ambient, ambient_);
-        direct = sine > 0.0f ? reflectivity * intensity * direct : floats{};
-        const floats rest = reflectivity * (sky * (0.5f * (1.0f + turned * normal[2])) + ambient);
-        const floats one = floats{} + 1.0f, sum = rest + direct;
-        const floats all = sum < one ? sum : one;
-        if (into_.undecided == nullptr)
-            f.store(into_.picture, all);
-        else
-            store_known<N>(f, all, rest, direct);
-        if (into_.ids == nullptr) return;
-        lanes<std::uint32_t, N> ids;
-        load(ids, f.triangles);
-        f.store(*into_.ids, lanes<std::uint32_t, N>(ids + object_.first_id));
-    }
-
-  private:
-    /// Stores the light of pixels whose triangles are known to be lit or dark, and lists the others as undecided.
-    /// @param all  light if nothing blocks the source
-    template <int N>
-    INSONIFY_INLINE void store_known(const fragment_lanes<N, surface_varyings>& f, const lanes<float, N>& all,
-                                     const lanes<float, N>& rest, const lanes<float, N>& direct) const {
-        using ints = lanes<std::int32_t, N>;
-        using floats = lanes<float, N>;
-        floats value = rest < 1.0f ? rest : floats{} + 1.0f;
-        ints undecided = into_.marks_dark ? ints{} - 1 : ints(direct > 0.0f), is_dark{};
-        if (object_.known != nullptr) {
-            ints known;
-            gather<N>(known, [&](int k) { return static_cast<std::int32_t>(object_.known[f.triangles[k]]); });
-            const ints is_lit = ints(known == static_cast<std::int32_t>(shadow::decision::lit));
-            is_dark = ints(known == static_cast<std::int32_t>(shadow::decision::dark));
-            value = is_lit ? all : value;
-            undecided = undecided & ints(known == static_cast<std::int32_t>(shadow::decision::undecided));
-        }
-        f.store(into_.picture, value);
-        if (into_.shadow != nullptr) {
-            lanes<std::uint16_t, N> caster;
-            convert(caster, is_dark ? ints{} + static_cast<std::int32_t>(object_.self_shadow_label) : ints{});
-            f.store(*into_.shadow, caster);
-        }
-        static_assert(N <= 8);
-        const unsigned which = movemask<N>(f.visible);
-        into_.undecided->set<N>(f.x, f.y, which, movemask<N>(undecided) & which, f.triangles, object_.first_id, direct);
-    }
-
-    /// Replaces normals that are zero or not finite by the facet's.
-    template <int N>
-    INSONIFY_RARE void use_facets(lanes<float, N> (&normal)[3], const fragment_lanes<N, surface_varyings>& f,
-                                  const lanes<std::int32_t, N>& where) const {
-        for (int k = 0; k < N; ++k) {
-            if (lane(where, k) == 0) continue;
-            const glm::uvec3& t = object_.mesh.triangles[f.triangles[k]];
-            const auto corner = [&](int i) {
-                return transform_point(object_.to_rig, glm::dvec3(object_.mesh.positions[t[i]]));
-            };
-            const glm::dvec3 facet = unit(numeric::cross(corner(1) - corner(0), corner(2) - corner(0)));
-            for (int i = 0; i < 3; ++i) set_lane(normal[i], k, static_cast<float>(facet[i]));
-        }
-    }
-
-    /// The seabed's type at the vertex with the largest weight.
-    template <int N>
-    INSONIFY_INLINE std::uint8_t type_at(const fragment_lanes<N, surface_varyings>& f, int k) const {
-        const glm::uvec3& t = object_.mesh.triangles[f.triangles[k]];
-        const float a = lane(f.weights[0], k), b = lane(f.weights[1], k), c = lane(f.weights[2], k);
-        return static_cast<std::uint8_t>(object_.types[a >= b ? (a >= c ? t.x : t.z) : (b >= c ? t.y : t.z)]);
-    }
-
-    /// Sets the unit vector to the light.
-    template <int N>
-    INSONIFY_INLINE void point_to_light(lanes<float, N> (&into)[3],
-                                        const fragment_lanes<N, surface_varyings>& f) const {
-        using floats = lanes<float, N>;
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { load(into[i], to_light_[i]); });
-        if (!is_near_) return;
-        floats altitude, step, column, height, square = floats{}, length;
-        load(altitude, altitude_), load(step, ray_step_);
-        iota<float, N>(column);
-        f.interpolate(height, 3);
-        const floats down = altitude - height;
-        const floats position[3] = {(column + (static_cast<float>(f.x) + left_)) * step * down,
-                                    (top_ - static_cast<float>(f.y)) * step * down, height};
-        for (int i = 0; i < 3; ++i) {
-            into[i] = into[i] - position[i];
-            square = square + into[i] * into[i];
-        }
-        square_root<N>(length, square);
-        length = length > 0.0f ? length : floats{} + 1.0f;
-        for (int i = 0; i < 3; ++i) into[i] = into[i] / length;
-    }
-
-    template <int N>
-    INSONIFY_INLINE void law(lanes<float, N>& into, const lanes<float, N>& sine) const {
-        if constexpr (requires { law_.in_lanes(into, sine); })
-            law_.in_lanes(into, sine);
-        else
-            gather<N>(into, [&](int k) { return static_cast<float>(law_(lane(sine, k))); });
-    }
-
-    const surface& object_;
-    shaded_images into_;
-    Law law_;
-    bool is_near_;
-    float left_, top_;           ///< from the picture's middle to the first pixel's centre, in pixels
-    broadcast<float> ray_step_;  ///< see overhead_geometry::ray_step
-    broadcast<float> altitude_, intensity_, sky_, ambient_;  ///< the rig's
-    broadcast<float> to_light_[3];                           ///< unit vector, or the position of a near light
-};
-
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/sonar/overhead/detail/sampled_bottom.hpp -----------------------------------------
 // The seabed of an overhead picture: sampled on a grid, as a mesh in the rig's frame.
 
@@ -17592,357 +17950,12 @@ inline std::uint16_t shadow_label(std::uint32_t caster, std::size_t targets) {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/overhead/detail/point_pass.hpp ---------------------------------------------
-// Computes the surface points of undecided pixels, and whether each faces the light.
-//
-// The point is where the ray through the pixel's centre meets the plane of the pixel's triangle, in doubles, held to
-// the triangle: rounding to sub-pixels may show a triangle beside its edge. Everything is computed in the mesh's own
-// frame, in which the camera and the light are placed once.
-//
-// Based on: Christopher A. Burns, Warren A. Hunt. The Visibility Buffer: A Cache-Friendly Approach to Deferred Shading.
-// JCGT 2, 2013. Tomas Moeller, Ben Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace detail::inline INSONIFY_FLAGS {
-
-/// Points that pixels show, as arrays of equal length.
-struct point_batch {
-    uninitialized_array<double> x, y, z;
-    uninitialized_array<std::uint32_t> mesh, triangle;
-    uninitialized_array<std::uint32_t> pixel;  ///< of the picture
-    uninitialized_array<float> direct;         ///< light that arrives there if nothing blocks it
-
-    explicit point_batch(std::size_t count, const shared_pool& memory = {})
-        : x(count, memory),
-          y(count, memory),
-          z(count, memory),
-          mesh(count, memory),
-          triangle(count, memory),
-          pixel(count, memory),
-          direct(count, memory) {}
-
-    shadow::points part(std::size_t first, std::size_t n) const {
-        const auto some = [&](const auto& array) { return std::span(array).subspan(first, n); };
-        return {some(x), some(y), some(z), some(mesh), some(triangle)};
-    }
-};
-
-/// Points that are tested for shadows, in a part of a batch: those that face the light from its front, those that face
-/// away from its back.
-class point_list {
-  public:
-    std::size_t facing = 0, averted = 0;
-
-    /// @param room         the batch to fill
-    /// @param first, last  the range of it for this list
-    point_list(point_batch& room, std::size_t first, std::size_t last) : room_(&room), first_(first), last_(last) {}
-
-    std::size_t size() const { return facing + averted; }
-    shadow::points facing_points() const { return room_->part(first_, facing); }
-    shadow::points averted_points() const { return room_->part(last_ - averted, averted); }
-    /// The pixel, its light and the caster of a point; facing ones are counted first.
-    std::size_t pixel(std::size_t point) const { return room_->pixel[at(point)]; }
-    float direct(std::size_t point) const { return room_->direct[at(point)]; }
-    std::uint32_t caster(std::size_t point) const { return room_->mesh[at(point)]; }
-
-    INSONIFY_INLINE void add(bool is_facing, double x, double y, double z, std::uint32_t mesh, std::uint32_t triangle,
-                             std::uint32_t pixel, float direct) {
-        const std::size_t to = is_facing ? first_ + facing++ : last_ - ++averted;
-        room_->x[to] = x;
-        room_->y[to] = y;
-        room_->z[to] = z;
-        room_->mesh[to] = mesh;
-        room_->triangle[to] = triangle;
-        room_->pixel[to] = pixel;
-        room_->direct[to] = direct;
-    }
-
-  private:
-    std::size_t at(std::size_t point) const {
-        return point < facing ? first_ + point : last_ - averted + (point - facing);
-    }
-
-    point_batch* room_;
-    std::size_t first_, last_;
-};
-
-/// An object, the camera and the light from the object's own frame.
-struct point_finder {
-    const surface* object;
-    glm::dvec3 eye;                      ///< the camera
-    glm::dvec3 corner_ray, right, down;  ///< rays through pixels: of pixel (0, 0), and from pixel to pixel
-    glm::dvec3 light;                    ///< towards a parallel light, or where a near one is
-
-    point_finder(const overhead_geometry& view, const surface& s) : object(&s) {
-        const affine back = inverse(s.to_rig);
-        eye = transform_point(back, view.eye());
-        corner_ray = transform_direction(back, view.ray(0, 0));
-        right = transform_direction(back, view.ray(1, 0) - view.ray(0, 0));
-        down = transform_direction(back, view.ray(0, 1) - view.ray(0, 0));
-        light = view.has_near_light() ? transform_point(back, view.light_position())
-                                      : transform_direction(back, view.light().to_light());
-    }
-};
-
-/// A pixel whose point is looked for.
-struct shown_pixel {
-    std::uint16_t column, row;  ///< within the tile
-    std::uint32_t triangle;
-    float direct;  ///< see point_batch
-};
-
-/// Finds the points of some pixels of one object.
-struct point_kernel {
-    const point_finder& from;
-    std::span<const shown_pixel> pixels;
-    bool has_near_light;
-    bool includes_averted;
-    const rect& box;      ///< the tile's pixels
-    std::uint32_t pitch;  ///< pixels from one row of the picture to the next
-    point_list& points;
-
-    template <int Width>
-    INSONIFY_INLINE void run() const {
-        constexpr int N = Width > 1 ? Width / 2 : 1;
-        for (std::size_t i = 0; i < pixels.size(); i += N) {
-            prefetch_ahead<N>(i);
-            find<N>(i, (std::min)(pixels.size() - i, std::size_t{N}));
-        }
-    }
-
-  private:
-    /// Prefetches the triangles of pixels a few rounds ahead of `i`, and the vertices of those fetched before.
-    template <int N>
-    INSONIFY_INLINE void prefetch_ahead(std::size_t i) const {
-        const mesh_view& m = from.object->mesh;
-        const auto some = [&](int rounds) {
-            const std::size_t first = (std::min)(i + static_cast<std::size_t>(rounds * N), pixels.size());
-            return pixels.subspan(first, (std::min)(pixels.size() - first, std::size_t{N}));
-        };
-        for (const shown_pixel& p : some(4)) prefetch(&m.triangles[p.triangle]);
-        for (const shown_pixel& p : some(2))
-            for (int k = 0; k < 3; ++k) prefetch(&m.positions[m.triangles[p.triangle][k]]);
-    }
-    template <class Reals>
-    INSONIFY_INLINE static void cross(Reals (&into)[3], const Reals (&a)[3], const Reals (&b)[3]) {
-        into[0] = a[1] * b[2] - b[1] * a[2];
-        into[1] = a[2] * b[0] - b[2] * a[0];
-        into[2] = a[0] * b[1] - b[0] * a[1];
-    }
-    template <class Reals>
-    INSONIFY_INLINE static void dot(Reals& into, const Reals (&a)[3], const Reals (&b)[3]) {
-        into = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    }
-    template <int N>
-    using corners = const glm::uvec3 * [static_cast<unsigned>(N)];
-
-    /// The vectors at one corner of each triangle. Whole rows of four floats are read where none is the array's last.
-    template <int N>
-    INSONIFY_INLINE static void fetch(lanes<float, N> (&into)[3], const glm::vec3* vectors, const corners<N>& t,
-                                      int corner, bool has_last) {
-#if INSONIFY_SIMD
-        if constexpr (N >= 4) {
-            if (!has_last) {
-                lanes<float, N> columns[4];
-                transpose<N>(columns, [&](int k) { return &vectors[(*t[k])[corner]].x; });
-                unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA { into[axis] = columns[axis]; });
-                return;
-            }
-        }
-#endif
-        (void)has_last;
-        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
-            gather<N>(into[axis], [&](int k) { return vectors[(*t[k])[corner]][axis]; });
-        });
-    }
-    template <int N>
-    INSONIFY_INLINE static void fetch(lanes<double, N> (&into)[3], const glm::vec3* vectors, const corners<N>& t,
-                                      int corner, bool has_last) {
-        lanes<float, N> narrow[3];
-        fetch<N>(narrow, vectors, t, corner, has_last);
-        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA { convert(into[axis], narrow[axis]); });
-    }
-
-    template <int N>
-    INSONIFY_INLINE void find(std::size_t start, std::size_t count) const {
-        using reals = lanes<double, N>;
-        using bits = lanes<std::int64_t, N>;
-        const surface& s = *from.object;
-        corners<N> t;
-        std::uint32_t greatest = 0;
-        reals column, row;
-        const auto pixel = [&](int k) -> const shown_pixel& {
-            return pixels[start + (std::min)(static_cast<std::size_t>(k), count - 1)];
-        };
-        for (int k = 0; k < N; ++k) {
-            t[k] = &s.mesh.triangles[pixel(k).triangle];
-            greatest = (std::max)(greatest, (std::max)((std::max)(t[k]->x, t[k]->y), t[k]->z));
-        }
-        gather<N>(column, [&](int k) { return static_cast<double>(box.x0 + pixel(k).column); });
-        gather<N>(row, [&](int k) { return static_cast<double>(box.y0 + pixel(k).row); });
-        const bool has_last = greatest + 1 >= s.mesh.positions.size();
-
-        // Where the ray through each pixel meets its triangle: a + b ab + c ac.
-        reals a[3], ab[3], ac[3], ray[3], to_eye[3], p[3], q[3], scale, b, c;
-        fetch<N>(a, s.mesh.positions.data(), t, 0, has_last);
-        fetch<N>(ab, s.mesh.positions.data(), t, 1, has_last);
-        fetch<N>(ac, s.mesh.positions.data(), t, 2, has_last);
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
-            ab[i] = ab[i] - a[i];
-            ac[i] = ac[i] - a[i];
-            ray[i] = from.corner_ray[i] + row * from.down[i] + column * from.right[i];
-            to_eye[i] = from.eye[i] - a[i];
-        });
-        cross(p, ray, ac);
-        cross(q, to_eye, ab);
-        dot(scale, ab, p);
-        scale = 1.0 / scale;
-        dot(b, to_eye, p);
-        dot(c, ray, q);
-        b = b * scale;
-        c = c * scale;
-        const bits inside = bits(b >= border) & bits(c >= border) & bits(b + c <= 1.0 - border);
-        if (any(bits(inside == 0))) hold_inside<N>(b, c);
-
-        // Which side of the facet is seen, and whether the light meets it.
-        reals at[3], facet[3], toward[3], seen, along, size, way;
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
-            at[i] = a[i] + b * ab[i] + c * ac[i];
-            toward[i] = has_near_light ? from.light[i] - at[i] : reals{} + from.light[i];
-        });
-        cross(facet, ab, ac);
-        dot(seen, facet, to_eye);
-        dot(along, facet, toward);
-        dot(size, facet, facet);
-        dot(way, toward, toward);
-        along = seen > 0.0 ? along : 0.0 - along;
-        const bits faces = bits(along > 0.0) & bits(along * along > (grazed * grazed * size) * way);
-        double places[3][static_cast<unsigned>(N)];
-        std::int64_t facing[static_cast<unsigned>(N)];
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
-            store(places[i], reals(s.to_rig.linear[0][i] * at[0] + s.to_rig.linear[1][i] * at[1] +
-                                   s.to_rig.linear[2][i] * at[2] + s.to_rig.offset[i]));
-        });
-        store(facing, faces);
-        for (std::size_t k = 0; k < count; ++k) {
-            if (facing[k] == 0 && !includes_averted) continue;
-            const shown_pixel& shown = pixels[start + k];
-            points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], s.caster, shown.triangle,
-                       static_cast<std::uint32_t>(box.y0 + shown.row) * pitch +
-                           static_cast<std::uint32_t>(box.x0 + shown.column),
-                       shown.direct);
-        }
-    }
-
-    /// Facets at a smaller sine to the light count as facing away: vertices are rounded to 2^-24, and facets
-    /// parallel to the light up to that error are dark.
-    static constexpr double grazed = 0x1p-22;
-
-    /// Points keep this barycentric distance from the edges of their triangle: a point on an edge would lie in the
-    /// adjacent triangle, too, which then would not block it.
-    static constexpr double border = 0x1p-20;
-
-    /// Rounding to sub-pixels may show a triangle beside its edge; one seen from its edge gives NaN or infinity.
-    template <int N>
-    INSONIFY_RARE static void hold_inside(lanes<double, N>& b, lanes<double, N>& c) {
-        using reals = lanes<double, N>;
-        const auto clamp = [](reals& x) INSONIFY_INLINE_LAMBDA {
-            x = x > border ? x : reals{} + border;
-            x = x < 0x1p60 ? x : reals{} + 0x1p60;
-        };
-        clamp(b);
-        clamp(c);
-        const reals sum = b + c, scale = sum > 1.0 - border ? (1.0 - border) / sum : reals{} + 1.0;
-        b = b * scale;
-        c = c * scale;
-    }
-};
-
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/sonar/overhead/detail/light_pass.hpp ---------------------------------------------
-// Casters for shadow policies, and memory for the results of points.
-//
-// A point in several shadows has the label of the target with the lowest index, else of its own surface, if that faces
-// away from the light, else of the seabed.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace detail::inline INSONIFY_FLAGS {
-
-/// A mesh as a caster, and which of its triangles may be skipped for points that the camera sees.
-///
-/// A ray that starts outside of a closed mesh and hits it enters it through a triangle that faces away from the light,
-/// so triangles that face the light may be skipped. What a camera outside of the mesh sees lies outside. The same holds
-/// for a heightfield's own points if camera and light are above it: rays leave its bounds above the surface.
-inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh& m) {
-    surface seen;
-    seen.to_rig = m.to_rig;
-    const point_finder from(view, seen);
-    const auto is_outside = [&](const glm::dvec3& p) {
-        bool outside = false;
-        for (int i = 0; i < 3; ++i) outside = outside || p[i] < m.box.lower[i] || p[i] > m.box.upper[i];
-        return outside;
-    };
-    const auto is_above = [&](const glm::dvec3& p) { return p.z > m.box.upper.z; };
-    const bool is_lit_from_above = view.has_near_light() ? is_above(from.light) : from.light.z > 0;
-    const bool is_lit_from_outside = !view.has_near_light() || is_outside(from.light);
-    shadow::skip may_skip = shadow::skip::nothing;
-    if (m.kind == surface_kind::closed && is_outside(from.eye) && is_lit_from_outside) may_skip = shadow::skip::facing;
-    if (m.kind == surface_kind::heightfield && is_above(from.eye) && is_lit_from_above)
-        may_skip = shadow::skip::facing_its_own;
-    return {m.shape, m.to_rig, m.box, may_skip, m.grid};
-}
-
-/// Memory for the results of points.
-struct light_arrays {
-    uninitialized_array<float> lit;
-    uninitialized_array<std::uint32_t> caster;
-
-    explicit light_arrays(std::size_t points, const shared_pool& memory = {})
-        : lit(points, memory), caster(points, memory) {}
-    shadow::results part(std::size_t first, std::size_t count) {
-        return {std::span(lit).subspan(first, count), std::span(caster).subspan(first, count)};
-    }
-};
-
-/// Points that face the light concern all casters; those that face away only need the targets, for labels.
-/// @param targets  casters numbered below this are targets
-inline shadow::points batch(shadow::points all, bool face_light, std::uint32_t targets) {
-    if (!face_light) all.casters = targets;
-    all.face_light = face_light;
-    return all;
-}
-
-/// Visits the batches of a list, and where their answers go.
-template <class Visit>
-void for_each_batch(const point_list& points, const shadow::results& all, std::uint32_t targets, const Visit& visit) {
-    if (points.facing > 0)
-        visit(batch(points.facing_points(), true, targets),
-              shadow::results{all.lit.first(points.facing), all.caster.first(points.facing)});
-    if (points.averted > 0)
-        visit(batch(points.averted_points(), false, targets),
-              shadow::results{all.lit.subspan(points.facing), all.caster.subspan(points.facing)});
-}
-
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/sonar/overhead/detail/shadow_pass.hpp --------------------------------------------
 // Applies a shadow policy to a picture: finds and tests the points of pixels whose light is undecided, tile by tile,
 // adds the light that arrives to the pixels, and labels shadows with their casters.
+//
+// A point in several shadows has the label of the target with the lowest index, else of its own surface, if that faces
+// away from the light, else of the seabed.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -17965,7 +17978,7 @@ class shadow_pass {
     struct images {
         undecided_light& undecided;
         image<float>& picture;  ///< the light that arrives is added
-        Labels& marks;
+        Labels& labels;
     };
 
     /// @param targets  casters numbered below this are targets
@@ -17979,7 +17992,7 @@ class shadow_pass {
           tile_pixels_(static_cast<std::size_t>(tile) * static_cast<std::size_t>(tile)),
           run_((std::min)(tiles_.run(), shadow::max_batch / tile_pixels_)),
           level_(level) {
-        for (const surface& s : surfaces) finders_.push_back({view, s});
+        for (const surface& s : surfaces) frames_.push_back({view, s.placed.to_rig});
     }
 
     /// Tests the points of every tile and adds the light that arrives. Occlusion that sees all points at once gets
@@ -17987,7 +18000,7 @@ class shadow_pass {
     template <class Occlusion, executor E>
     void cast(const Occlusion& occlusion, E& ex) {
         constexpr bool is_collective = shadow::collective_occlusion<Occlusion>;
-        dynamic_array<std::size_t> unknown(is_collective ? tiles_.count() : 0);  // points of each tile
+        dynamic_array<std::size_t> undecided(is_collective ? tiles_.count() : 0);  // points of each tile
         bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
             scratch room(surfaces_.size(), tile_pixels_);
             for (std::size_t i = first; i < last; ++i) {
@@ -18001,10 +18014,10 @@ class shadow_pass {
                         occlusion.test(p, s);
                 });
                 finish(points, light);
-                if constexpr (is_collective) unknown[i] = mark_unknown(points, light);
+                if constexpr (is_collective) undecided[i] = mark_undecided(points, light);
             }
         });
-        if constexpr (is_collective) test_together(occlusion, unknown, ex);
+        if constexpr (is_collective) test_together(occlusion, undecided, ex);
     }
 
   private:
@@ -18020,21 +18033,21 @@ class shadow_pass {
         scratch(std::size_t surfaces, std::size_t pixels) : points(pixels), light(pixels), shown(surfaces) {}
     };
 
-    rect box_of(std::size_t tile) const {
+    rect pixels_of(std::size_t tile) const {
         return tiles_.pixels(tile, images_.picture.width(), images_.picture.height());
     }
     /// The points of a tile whose light is undecided.
     void find_points(std::size_t tile, shown_by_surface& shown, point_list& into) {
         const surface* last = surfaces_.data();
         images_.undecided.take(tile, [&](const undecided_pixel& p) {
-            if (p.id - last->first_id >= last->mesh.triangles.size()) last = &surface_of(surfaces_, p.id);
+            if (p.id - last->first_id >= last->placed.shape.triangles.size()) last = &surface_of(surfaces_, p.id);
             shown[static_cast<std::size_t>(last - surfaces_.data())].push_back(
                 {p.column, p.row, p.id - last->first_id, p.direct});
         });
-        const rect box = box_of(tile);
-        for (std::size_t i = 0; i < finders_.size(); ++i) {
+        const rect pixels = pixels_of(tile);
+        for (std::size_t i = 0; i < frames_.size(); ++i) {
             if (shown[i].empty()) continue;
-            dispatch(point_kernel{finders_[i], shown[i], view_.has_near_light(), labelled, box,
+            dispatch(point_kernel{surfaces_[i], frames_[i], shown[i], view_.has_near_light(), labelled, pixels,
                                   static_cast<std::uint32_t>(images_.picture.width()), into},
                      level_);
             shown[i].clear();
@@ -18043,7 +18056,7 @@ class shadow_pass {
 
     /// Marks the pixels that screening does not decide.
     /// @returns their number
-    std::size_t mark_unknown(const point_list& points, const shadow::results& light) {
+    std::size_t mark_undecided(const point_list& points, const shadow::results& light) {
         const auto width = static_cast<std::size_t>(images_.picture.width());
         std::size_t count = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -18057,13 +18070,13 @@ class shadow_pass {
 
     /// Tests the points of all pixels that are still marked. They are few, and found again: storing them in the first
     /// pass would take memory for all points.
-    /// @param unknown  number of points of each tile
+    /// @param undecided  number of points of each tile
     template <class Occlusion, executor E>
-    void test_together(const Occlusion& occlusion, const dynamic_array<std::size_t>& unknown, E& ex) {
+    void test_together(const Occlusion& occlusion, const dynamic_array<std::size_t>& undecided, E& ex) {
         dynamic_array<std::size_t> starts{0};  // of the points of each run of tiles
         for (std::size_t i = 0; i < tiles_.count(); ++i) {
             if (i % run_ == 0) starts.push_back(starts.back());
-            starts.back() += unknown[i];
+            starts.back() += undecided[i];
         }
         point_batch all(starts.back(), memory_of(ex));
         light_arrays light(starts.back(), memory_of(ex));
@@ -18072,7 +18085,7 @@ class shadow_pass {
         bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
             shown_by_surface shown(surfaces_.size());
             for (std::size_t i = first; i < last; ++i)
-                if (unknown[i] > 0) find_points(i, shown, lists[first / run_]);
+                if (undecided[i] > 0) find_points(i, shown, lists[first / run_]);
         });
         const auto part = [&](std::size_t i) { return light.part(starts[i], lists[i].size()); };
         dynamic_array<shadow::points> at;
@@ -18091,7 +18104,7 @@ class shadow_pass {
             finish(points.pixel(i), points.direct(i), i < points.facing, points.caster(i), light.lit[i],
                    light.caster[i]);
     }
-    /// Adds the light that arrives at a pixel, and labels its shadow, see light_pass.hpp.
+    /// Adds the light that arrives at a pixel, and labels its shadow.
     /// @param direct  light that arrives if nothing blocks it
     /// @param own     the caster that the point lies on
     /// @param caster  the caster that blocks its light
@@ -18104,13 +18117,13 @@ class shadow_pass {
             if (is_facing && !(lit < 0.5f)) return;
             if (!is_facing && caster >= targets_) caster = own;
             // A point without a caster is not tested yet.
-            if (caster != shadow::invalid_id) images_.marks.shadow.pixels()[pixel] = shadow_label(caster, targets_);
+            if (caster != shadow::invalid_id) images_.labels.shadow.pixels()[pixel] = shadow_label(caster, targets_);
         }
     }
 
     const overhead_geometry& view_;
     const dynamic_array<surface>& surfaces_;
-    dynamic_array<point_finder> finders_;  ///< of the surfaces
+    dynamic_array<view_from_object> frames_;  ///< of the surfaces
     images images_;
     std::uint32_t targets_;
     tile_grid tiles_;
@@ -18164,7 +18177,7 @@ class overhead_painter {
             const shadow::point_bounds bounds{receivers(), view_.ground_sampling(), options_.level};
             const auto occlusion =
                 options_.shadow.build(std::span<const shadow::caster>(casters), light_in_rig(view_), bounds, ex);
-            const auto known = settle_triangles(occlusion, ex);
+            const auto known = decide_triangles(occlusion, ex);
             draw_all(ex);
             shadow_pass<Labels>(view_, surfaces_, {undecided_, out_.image, out_.labels}, targets_.size(), options_.tile,
                                 options_.level)
@@ -18248,8 +18261,7 @@ class overhead_painter {
                              std::uint8_t seabed, const material& m) {
             surfaces_.push_back({});
             surface& s = surfaces_.back();
-            s.mesh = placed.shape;
-            s.to_rig = placed.to_rig;
+            s.placed = placed;
             s.first_id = static_cast<std::uint32_t>(ids);
             s.caster = caster;
             s.instance = instance;
@@ -18276,12 +18288,12 @@ class overhead_painter {
 
     /// Decides whole triangles before they are drawn, lit or dark. The surfaces point to the results.
     template <class Occlusion, executor E>
-    dynamic_array<uninitialized_array<shadow::decision>> settle_triangles(const Occlusion& occlusion, E& ex) {
+    dynamic_array<uninitialized_array<shadow::decision>> decide_triangles(const Occlusion& occlusion, E& ex) {
         dynamic_array<uninitialized_array<shadow::decision>> known;
         if constexpr (shadow::triangle_occlusion<Occlusion>)
             for (surface& s : surfaces_) {
                 // A mesh much finer than the picture has more triangles than points to test.
-                if (s.mesh.triangles.size() > 2 * out_.image.size()) continue;
+                if (s.placed.shape.triangles.size() > 2 * out_.image.size()) continue;
                 known.push_back(occlusion.decide_triangles(s.caster, view_.eye(), ex));
                 if (!known.back().empty()) s.known = known.back().data();
             }
@@ -18307,8 +18319,7 @@ class overhead_painter {
         if constexpr (labelled) into.types = &out_.labels.seabed;
         if (surfaces_.empty()) into.clear({0, 0, rig.size.x, rig.size.y});
         for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-            const bool is_bottom = has_bottom() && i == 0;
-            const placed_mesh& placed = is_bottom ? bottom_in_rig_ : targets_[has_bottom() ? i - 1 : i];
+            const placed_mesh& placed = surfaces_[i].placed;
             const draw_options<Depth> options{.keep = keep_depth::larger,
                                               .load = i == 0 ? depth_load::clear : depth_load::keep,
                                               .subpixel_bits = options_.subpixel_bits,
@@ -18317,7 +18328,7 @@ class overhead_painter {
             const draw_stats stats = draw(placed.shape, surface_vertex_shader(view_, placed),
                                           surface_shader<Law>(view_, surfaces_[i], options_.law, into),
                                           framebuffer<void>{depth}, options, ex);
-            (is_bottom ? out_.stats.seabed : out_.stats.targets) += stats;
+            (has_bottom() && i == 0 ? out_.stats.seabed : out_.stats.targets) += stats;
         }
     }
 
@@ -18331,7 +18342,7 @@ class overhead_painter {
             for (int x = 0; x < ids_.width(); ++x) {
                 const std::uint32_t id = ids_(x, y);
                 if (id == shadow::invalid_id) continue;
-                if (id - last->first_id >= last->mesh.triangles.size()) last = &surface_of(surfaces_, id);
+                if (id - last->first_id >= last->placed.shape.triangles.size()) last = &surface_of(surfaces_, id);
                 out_.labels.instance(x, y) = last->instance;
                 if (last->types == nullptr) out_.labels.seabed(x, y) = last->seabed;
             }

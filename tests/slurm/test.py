@@ -5,17 +5,18 @@ Needs slurmctld, slurmd, munged, and root: a node is a process namespace, so tha
 """
 
 import getpass
-import hashlib
 import os
 import pathlib
 import shutil
-import signal
 import socket
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "examples/common"))
+from programs import digest
 
 GENERATOR, MERGE = sys.argv.pop(1), sys.argv.pop(1)
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -51,11 +52,6 @@ NodeName=one NodeHostname={host} Port={ports[1]} CPUs=2
 NodeName=two NodeHostname={host} Port={ports[2]} CPUs=2
 PartitionName=all Nodes=one,two Default=YES MaxTime=INFINITE State=UP OverSubscribe=YES
 """
-
-
-def digest(folder):
-    return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
-            for path in sorted(pathlib.Path(folder).rglob("*")) if path.is_file() and path.name != ".lock"}
 
 
 def free_ports(count):

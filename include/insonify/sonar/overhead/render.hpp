@@ -6,6 +6,7 @@
 #include <insonify/raster/draw.hpp>
 #include <insonify/shadow/exact.hpp>
 #include <insonify/sonar/detail/checked_materials.hpp>
+#include <insonify/sonar/overhead/detail/picture_casters.hpp>
 #include <insonify/sonar/overhead/detail/sampled_bottom.hpp>
 #include <insonify/sonar/overhead/detail/seabed_reach.hpp>
 #include <insonify/sonar/overhead/detail/shadow_pass.hpp>
@@ -51,7 +52,7 @@ class overhead_painter {
             const shadow::point_bounds bounds{receivers(), view_.ground_sampling(), options_.level};
             const auto occlusion =
                 options_.shadow.build(std::span<const shadow::caster>(casters), light_in_rig(view_), bounds, ex);
-            const auto known = settle_triangles(occlusion, ex);
+            const auto known = decide_triangles(occlusion, ex);
             draw_all(ex);
             shadow_pass<Labels>(view_, surfaces_, {undecided_, out_.image, out_.labels}, targets_.size(), options_.tile,
                                 options_.level)
@@ -135,8 +136,7 @@ class overhead_painter {
                              std::uint8_t seabed, const material& m) {
             surfaces_.push_back({});
             surface& s = surfaces_.back();
-            s.mesh = placed.shape;
-            s.to_rig = placed.to_rig;
+            s.placed = placed;
             s.first_id = static_cast<std::uint32_t>(ids);
             s.caster = caster;
             s.instance = instance;
@@ -163,12 +163,12 @@ class overhead_painter {
 
     /// Decides whole triangles before they are drawn, lit or dark. The surfaces point to the results.
     template <class Occlusion, executor E>
-    dynamic_array<uninitialized_array<shadow::decision>> settle_triangles(const Occlusion& occlusion, E& ex) {
+    dynamic_array<uninitialized_array<shadow::decision>> decide_triangles(const Occlusion& occlusion, E& ex) {
         dynamic_array<uninitialized_array<shadow::decision>> known;
         if constexpr (shadow::triangle_occlusion<Occlusion>)
             for (surface& s : surfaces_) {
                 // A mesh much finer than the picture has more triangles than points to test.
-                if (s.mesh.triangles.size() > 2 * out_.image.size()) continue;
+                if (s.placed.shape.triangles.size() > 2 * out_.image.size()) continue;
                 known.push_back(occlusion.decide_triangles(s.caster, view_.eye(), ex));
                 if (!known.back().empty()) s.known = known.back().data();
             }
@@ -194,8 +194,7 @@ class overhead_painter {
         if constexpr (labelled) into.types = &out_.labels.seabed;
         if (surfaces_.empty()) into.clear({0, 0, rig.size.x, rig.size.y});
         for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-            const bool is_bottom = has_bottom() && i == 0;
-            const placed_mesh& placed = is_bottom ? bottom_in_rig_ : targets_[has_bottom() ? i - 1 : i];
+            const placed_mesh& placed = surfaces_[i].placed;
             const draw_options<Depth> options{.keep = keep_depth::larger,
                                               .load = i == 0 ? depth_load::clear : depth_load::keep,
                                               .subpixel_bits = options_.subpixel_bits,
@@ -204,7 +203,7 @@ class overhead_painter {
             const draw_stats stats = draw(placed.shape, surface_vertex_shader(view_, placed),
                                           surface_shader<Law>(view_, surfaces_[i], options_.law, into),
                                           framebuffer<void>{depth}, options, ex);
-            (is_bottom ? out_.stats.seabed : out_.stats.targets) += stats;
+            (has_bottom() && i == 0 ? out_.stats.seabed : out_.stats.targets) += stats;
         }
     }
 
@@ -218,7 +217,7 @@ class overhead_painter {
             for (int x = 0; x < ids_.width(); ++x) {
                 const std::uint32_t id = ids_(x, y);
                 if (id == shadow::invalid_id) continue;
-                if (id - last->first_id >= last->mesh.triangles.size()) last = &surface_of(surfaces_, id);
+                if (id - last->first_id >= last->placed.shape.triangles.size()) last = &surface_of(surfaces_, id);
                 out_.labels.instance(x, y) = last->instance;
                 if (last->types == nullptr) out_.labels.seabed(x, y) = last->seabed;
             }

@@ -11,8 +11,8 @@
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/lanes.hpp>
 #include <insonify/core/simd/transpose.hpp>
-#include <insonify/shadow/policy.hpp>
 #include <insonify/sonar/overhead/detail/shading.hpp>
+#include <insonify/sonar/overhead/detail/shadow_points.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -20,76 +20,14 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Points that pixels show, as arrays of equal length.
-struct point_batch {
-    uninitialized_array<double> x, y, z;
-    uninitialized_array<std::uint32_t> mesh, triangle;
-    uninitialized_array<std::uint32_t> pixel;  ///< of the picture
-    uninitialized_array<float> direct;         ///< light that arrives there if nothing blocks it
-
-    explicit point_batch(std::size_t count, const shared_pool& memory = {})
-        : x(count, memory),
-          y(count, memory),
-          z(count, memory),
-          mesh(count, memory),
-          triangle(count, memory),
-          pixel(count, memory),
-          direct(count, memory) {}
-
-    shadow::points part(std::size_t first, std::size_t n) const {
-        const auto some = [&](const auto& array) { return std::span(array).subspan(first, n); };
-        return {some(x), some(y), some(z), some(mesh), some(triangle)};
-    }
-};
-
-/// Points that are tested for shadows, in a part of a batch: those that face the light from its front, those that face
-/// away from its back.
-class point_list {
-  public:
-    std::size_t facing = 0, averted = 0;
-
-    /// @param room         the batch to fill
-    /// @param first, last  the range of it for this list
-    point_list(point_batch& room, std::size_t first, std::size_t last) : room_(&room), first_(first), last_(last) {}
-
-    std::size_t size() const { return facing + averted; }
-    shadow::points facing_points() const { return room_->part(first_, facing); }
-    shadow::points averted_points() const { return room_->part(last_ - averted, averted); }
-    /// The pixel, its light and the caster of a point; facing ones are counted first.
-    std::size_t pixel(std::size_t point) const { return room_->pixel[at(point)]; }
-    float direct(std::size_t point) const { return room_->direct[at(point)]; }
-    std::uint32_t caster(std::size_t point) const { return room_->mesh[at(point)]; }
-
-    INSONIFY_INLINE void add(bool is_facing, double x, double y, double z, std::uint32_t mesh, std::uint32_t triangle,
-                             std::uint32_t pixel, float direct) {
-        const std::size_t to = is_facing ? first_ + facing++ : last_ - ++averted;
-        room_->x[to] = x;
-        room_->y[to] = y;
-        room_->z[to] = z;
-        room_->mesh[to] = mesh;
-        room_->triangle[to] = triangle;
-        room_->pixel[to] = pixel;
-        room_->direct[to] = direct;
-    }
-
-  private:
-    std::size_t at(std::size_t point) const {
-        return point < facing ? first_ + point : last_ - averted + (point - facing);
-    }
-
-    point_batch* room_;
-    std::size_t first_, last_;
-};
-
-/// An object, the camera and the light from the object's own frame.
-struct point_finder {
-    const surface* object;
+/// The camera and the light from an object's own frame.
+struct view_from_object {
     glm::dvec3 eye;                      ///< the camera
     glm::dvec3 corner_ray, right, down;  ///< rays through pixels: of pixel (0, 0), and from pixel to pixel
     glm::dvec3 light;                    ///< towards a parallel light, or where a near one is
 
-    point_finder(const overhead_geometry& view, const surface& s) : object(&s) {
-        const affine back = inverse(s.to_rig);
+    view_from_object(const overhead_geometry& view, const affine& to_rig) {
+        const affine back = inverse(to_rig);
         eye = transform_point(back, view.eye());
         corner_ray = transform_direction(back, view.ray(0, 0));
         right = transform_direction(back, view.ray(1, 0) - view.ray(0, 0));
@@ -108,7 +46,8 @@ struct shown_pixel {
 
 /// Finds the points of some pixels of one object.
 struct point_kernel {
-    const point_finder& from;
+    const surface& object;
+    const view_from_object& from;
     std::span<const shown_pixel> pixels;
     bool has_near_light;
     bool includes_averted;
@@ -129,7 +68,7 @@ struct point_kernel {
     /// Prefetches the triangles of pixels a few rounds ahead of `i`, and the vertices of those fetched before.
     template <int N>
     INSONIFY_INLINE void prefetch_ahead(std::size_t i) const {
-        const mesh_view& m = from.object->mesh;
+        const mesh_view& m = object.placed.shape;
         const auto some = [&](int rounds) {
             const std::size_t first = (std::min)(i + static_cast<std::size_t>(rounds * N), pixels.size());
             return pixels.subspan(first, (std::min)(pixels.size() - first, std::size_t{N}));
@@ -182,7 +121,8 @@ struct point_kernel {
     INSONIFY_INLINE void find(std::size_t start, std::size_t count) const {
         using reals = lanes<double, N>;
         using bits = lanes<std::int64_t, N>;
-        const surface& s = *from.object;
+        const mesh_view& m = object.placed.shape;
+        const affine& to_rig = object.placed.to_rig;
         corners<N> t;
         std::uint32_t greatest = 0;
         reals column, row;
@@ -190,18 +130,18 @@ struct point_kernel {
             return pixels[start + (std::min)(static_cast<std::size_t>(k), count - 1)];
         };
         for (int k = 0; k < N; ++k) {
-            t[k] = &s.mesh.triangles[pixel(k).triangle];
+            t[k] = &m.triangles[pixel(k).triangle];
             greatest = (std::max)(greatest, (std::max)((std::max)(t[k]->x, t[k]->y), t[k]->z));
         }
         gather<N>(column, [&](int k) { return static_cast<double>(box.x0 + pixel(k).column); });
         gather<N>(row, [&](int k) { return static_cast<double>(box.y0 + pixel(k).row); });
-        const bool has_last = greatest + 1 >= s.mesh.positions.size();
+        const bool has_last = greatest + 1 >= m.positions.size();
 
         // Where the ray through each pixel meets its triangle: a + b ab + c ac.
         reals a[3], ab[3], ac[3], ray[3], to_eye[3], p[3], q[3], scale, b, c;
-        fetch<N>(a, s.mesh.positions.data(), t, 0, has_last);
-        fetch<N>(ab, s.mesh.positions.data(), t, 1, has_last);
-        fetch<N>(ac, s.mesh.positions.data(), t, 2, has_last);
+        fetch<N>(a, m.positions.data(), t, 0, has_last);
+        fetch<N>(ab, m.positions.data(), t, 1, has_last);
+        fetch<N>(ac, m.positions.data(), t, 2, has_last);
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             ab[i] = ab[i] - a[i];
             ac[i] = ac[i] - a[i];
@@ -235,14 +175,14 @@ struct point_kernel {
         double places[3][static_cast<unsigned>(N)];
         std::int64_t facing[static_cast<unsigned>(N)];
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
-            store(places[i], reals(s.to_rig.linear[0][i] * at[0] + s.to_rig.linear[1][i] * at[1] +
-                                   s.to_rig.linear[2][i] * at[2] + s.to_rig.offset[i]));
+            store(places[i], reals(to_rig.linear[0][i] * at[0] + to_rig.linear[1][i] * at[1] +
+                                   to_rig.linear[2][i] * at[2] + to_rig.offset[i]));
         });
         store(facing, faces);
         for (std::size_t k = 0; k < count; ++k) {
             if (facing[k] == 0 && !includes_averted) continue;
             const shown_pixel& shown = pixels[start + k];
-            points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], s.caster, shown.triangle,
+            points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], object.caster, shown.triangle,
                        static_cast<std::uint32_t>(box.y0 + shown.row) * pitch +
                            static_cast<std::uint32_t>(box.x0 + shown.column),
                        shown.direct);

@@ -66,8 +66,7 @@ struct surface_vertex_shader {
 
 /// The bottom or a target, for the passes over the picture.
 struct surface {
-    mesh_view mesh;
-    affine to_rig;
+    placed_mesh placed;
     std::uint32_t first_id = 0;               ///< of its triangles in the visibility buffer
     std::uint32_t caster = 0;                 ///< index into the casters
     std::uint16_t instance = 0;               ///< as in labels::instance
@@ -198,9 +197,9 @@ class surface_shader {
                                   const lanes<std::int32_t, N>& where) const {
         for (int k = 0; k < N; ++k) {
             if (lane(where, k) == 0) continue;
-            const glm::uvec3& t = object_.mesh.triangles[f.triangles[k]];
+            const glm::uvec3& t = object_.placed.shape.triangles[f.triangles[k]];
             const auto corner = [&](int i) {
-                return transform_point(object_.to_rig, glm::dvec3(object_.mesh.positions[t[i]]));
+                return transform_point(object_.placed.to_rig, glm::dvec3(object_.placed.shape.positions[t[i]]));
             };
             const glm::dvec3 facet = unit(numeric::cross(corner(1) - corner(0), corner(2) - corner(0)));
             for (int i = 0; i < 3; ++i) set_lane(normal[i], k, static_cast<float>(facet[i]));
@@ -210,7 +209,7 @@ class surface_shader {
     /// The seabed's type at the vertex with the largest weight.
     template <int N>
     INSONIFY_INLINE std::uint8_t type_at(const fragment_lanes<N, surface_varyings>& f, int k) const {
-        const glm::uvec3& t = object_.mesh.triangles[f.triangles[k]];
+        const glm::uvec3& t = object_.placed.shape.triangles[f.triangles[k]];
         const float a = lane(f.weights[0], k), b = lane(f.weights[1], k), c = lane(f.weights[2], k);
         return static_cast<std::uint8_t>(object_.types[a >= b ? (a >= c ? t.x : t.z) : (b >= c ? t.y : t.z)]);
     }

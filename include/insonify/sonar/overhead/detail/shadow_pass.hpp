@@ -1,10 +1,15 @@
 // Applies a shadow policy to a picture: finds and tests the points of pixels whose light is undecided, tile by tile,
 // adds the light that arrives to the pixels, and labels shadows with their casters.
+//
+// A point in several shadows has the label of the target with the lowest index, else of its own surface, if that faces
+// away from the light, else of the seabed.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/image.hpp>
-#include <insonify/sonar/overhead/detail/light_pass.hpp>
+#include <insonify/sonar/detail/shadow_terms.hpp>
+#include <insonify/sonar/overhead/detail/point_pass.hpp>
+#include <insonify/sonar/overhead/detail/undecided_light.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -31,7 +36,7 @@ class shadow_pass {
     struct images {
         undecided_light& undecided;
         image<float>& picture;  ///< the light that arrives is added
-        Labels& marks;
+        Labels& labels;
     };
 
     /// @param targets  casters numbered below this are targets
@@ -45,7 +50,7 @@ class shadow_pass {
           tile_pixels_(static_cast<std::size_t>(tile) * static_cast<std::size_t>(tile)),
           run_((std::min)(tiles_.run(), shadow::max_batch / tile_pixels_)),
           level_(level) {
-        for (const surface& s : surfaces) finders_.push_back({view, s});
+        for (const surface& s : surfaces) frames_.push_back({view, s.placed.to_rig});
     }
 
     /// Tests the points of every tile and adds the light that arrives. Occlusion that sees all points at once gets
@@ -53,7 +58,7 @@ class shadow_pass {
     template <class Occlusion, executor E>
     void cast(const Occlusion& occlusion, E& ex) {
         constexpr bool is_collective = shadow::collective_occlusion<Occlusion>;
-        dynamic_array<std::size_t> unknown(is_collective ? tiles_.count() : 0);  // points of each tile
+        dynamic_array<std::size_t> undecided(is_collective ? tiles_.count() : 0);  // points of each tile
         bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
             scratch room(surfaces_.size(), tile_pixels_);
             for (std::size_t i = first; i < last; ++i) {
@@ -67,10 +72,10 @@ class shadow_pass {
                         occlusion.test(p, s);
                 });
                 finish(points, light);
-                if constexpr (is_collective) unknown[i] = mark_unknown(points, light);
+                if constexpr (is_collective) undecided[i] = mark_undecided(points, light);
             }
         });
-        if constexpr (is_collective) test_together(occlusion, unknown, ex);
+        if constexpr (is_collective) test_together(occlusion, undecided, ex);
     }
 
   private:
@@ -86,21 +91,21 @@ class shadow_pass {
         scratch(std::size_t surfaces, std::size_t pixels) : points(pixels), light(pixels), shown(surfaces) {}
     };
 
-    rect box_of(std::size_t tile) const {
+    rect pixels_of(std::size_t tile) const {
         return tiles_.pixels(tile, images_.picture.width(), images_.picture.height());
     }
     /// The points of a tile whose light is undecided.
     void find_points(std::size_t tile, shown_by_surface& shown, point_list& into) {
         const surface* last = surfaces_.data();
         images_.undecided.take(tile, [&](const undecided_pixel& p) {
-            if (p.id - last->first_id >= last->mesh.triangles.size()) last = &surface_of(surfaces_, p.id);
+            if (p.id - last->first_id >= last->placed.shape.triangles.size()) last = &surface_of(surfaces_, p.id);
             shown[static_cast<std::size_t>(last - surfaces_.data())].push_back(
                 {p.column, p.row, p.id - last->first_id, p.direct});
         });
-        const rect box = box_of(tile);
-        for (std::size_t i = 0; i < finders_.size(); ++i) {
+        const rect pixels = pixels_of(tile);
+        for (std::size_t i = 0; i < frames_.size(); ++i) {
             if (shown[i].empty()) continue;
-            dispatch(point_kernel{finders_[i], shown[i], view_.has_near_light(), labelled, box,
+            dispatch(point_kernel{surfaces_[i], frames_[i], shown[i], view_.has_near_light(), labelled, pixels,
                                   static_cast<std::uint32_t>(images_.picture.width()), into},
                      level_);
             shown[i].clear();
@@ -109,7 +114,7 @@ class shadow_pass {
 
     /// Marks the pixels that screening does not decide.
     /// @returns their number
-    std::size_t mark_unknown(const point_list& points, const shadow::results& light) {
+    std::size_t mark_undecided(const point_list& points, const shadow::results& light) {
         const auto width = static_cast<std::size_t>(images_.picture.width());
         std::size_t count = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -123,13 +128,13 @@ class shadow_pass {
 
     /// Tests the points of all pixels that are still marked. They are few, and found again: storing them in the first
     /// pass would take memory for all points.
-    /// @param unknown  number of points of each tile
+    /// @param undecided  number of points of each tile
     template <class Occlusion, executor E>
-    void test_together(const Occlusion& occlusion, const dynamic_array<std::size_t>& unknown, E& ex) {
+    void test_together(const Occlusion& occlusion, const dynamic_array<std::size_t>& undecided, E& ex) {
         dynamic_array<std::size_t> starts{0};  // of the points of each run of tiles
         for (std::size_t i = 0; i < tiles_.count(); ++i) {
             if (i % run_ == 0) starts.push_back(starts.back());
-            starts.back() += unknown[i];
+            starts.back() += undecided[i];
         }
         point_batch all(starts.back(), memory_of(ex));
         light_arrays light(starts.back(), memory_of(ex));
@@ -138,7 +143,7 @@ class shadow_pass {
         bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
             shown_by_surface shown(surfaces_.size());
             for (std::size_t i = first; i < last; ++i)
-                if (unknown[i] > 0) find_points(i, shown, lists[first / run_]);
+                if (undecided[i] > 0) find_points(i, shown, lists[first / run_]);
         });
         const auto part = [&](std::size_t i) { return light.part(starts[i], lists[i].size()); };
         dynamic_array<shadow::points> at;
@@ -157,7 +162,7 @@ class shadow_pass {
             finish(points.pixel(i), points.direct(i), i < points.facing, points.caster(i), light.lit[i],
                    light.caster[i]);
     }
-    /// Adds the light that arrives at a pixel, and labels its shadow, see light_pass.hpp.
+    /// Adds the light that arrives at a pixel, and labels its shadow.
     /// @param direct  light that arrives if nothing blocks it
     /// @param own     the caster that the point lies on
     /// @param caster  the caster that blocks its light
@@ -170,13 +175,13 @@ class shadow_pass {
             if (is_facing && !(lit < 0.5f)) return;
             if (!is_facing && caster >= targets_) caster = own;
             // A point without a caster is not tested yet.
-            if (caster != shadow::invalid_id) images_.marks.shadow.pixels()[pixel] = shadow_label(caster, targets_);
+            if (caster != shadow::invalid_id) images_.labels.shadow.pixels()[pixel] = shadow_label(caster, targets_);
         }
     }
 
     const overhead_geometry& view_;
     const dynamic_array<surface>& surfaces_;
-    dynamic_array<point_finder> finders_;  ///< of the surfaces
+    dynamic_array<view_from_object> frames_;  ///< of the surfaces
     images images_;
     std::uint32_t targets_;
     tile_grid tiles_;

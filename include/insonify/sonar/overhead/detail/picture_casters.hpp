@@ -1,0 +1,38 @@
+// Casters for the shadow policies of an overhead picture.
+#pragma once
+
+#include <insonify/sonar/overhead/detail/point_pass.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// A mesh as a caster, and which of its triangles may be skipped for points that the camera sees.
+///
+/// A ray that starts outside of a closed mesh and hits it enters it through a triangle that faces away from the light,
+/// so triangles that face the light may be skipped. What a camera outside of the mesh sees lies outside. The same holds
+/// for a heightfield's own points if camera and light are above it: rays leave its bounds above the surface.
+inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh& m) {
+    const view_from_object from(view, m.to_rig);
+    const auto is_outside = [&](const glm::dvec3& p) {
+        bool outside = false;
+        for (int i = 0; i < 3; ++i) outside = outside || p[i] < m.box.lower[i] || p[i] > m.box.upper[i];
+        return outside;
+    };
+    const auto is_above = [&](const glm::dvec3& p) { return p.z > m.box.upper.z; };
+    const bool is_lit_from_above = view.has_near_light() ? is_above(from.light) : from.light.z > 0;
+    const bool is_lit_from_outside = !view.has_near_light() || is_outside(from.light);
+    shadow::skip may_skip = shadow::skip::nothing;
+    if (m.kind == surface_kind::closed && is_outside(from.eye) && is_lit_from_outside) may_skip = shadow::skip::facing;
+    if (m.kind == surface_kind::heightfield && is_above(from.eye) && is_lit_from_above)
+        may_skip = shadow::skip::facing_its_own;
+    return {m.shape, m.to_rig, m.box, may_skip, m.grid};
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
