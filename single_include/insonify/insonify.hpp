@@ -8734,11 +8734,12 @@ INSONIFY_INLINE void locate(lanes<float, N>& across, lanes<std::int32_t, N>& cel
     }
 }
 
-/// x[i] frequency + offset for N positions, rounded to float: the sum has to be small.
-template <int N>
-INSONIFY_INLINE void offsets(lanes<float, N>& into, const double* x, double frequency, double offset) {
+/// `reduce(part, u)` turns u = x[i] frequency + offset, in doubles, into floats, for half of N positions at a time.
+template <int N, class Reduce>
+INSONIFY_INLINE void reduced(lanes<float, N>& into, const double* x, double frequency, double offset,
+                             const Reduce& reduce) {
     if constexpr (N == 1) {
-        into = static_cast<float>(*x * frequency + offset);
+        reduce(into, *x * frequency + offset);
     } else {
         constexpr int half = N / 2;
         lanes<float, half> part[2];
@@ -8746,10 +8747,26 @@ INSONIFY_INLINE void offsets(lanes<float, N>& into, const double* x, double freq
             lanes<double, half> u;
             insonify::detail::load(u, x + k * half);
             u = u * frequency + offset;
-            insonify::detail::convert(part[k], u);
+            reduce(part[k], u);
         }
         join<N>(into, part[0], part[1]);
     }
+}
+
+/// x[i] frequency + offset for N positions, rounded to float: the sum has to be small.
+template <int N>
+INSONIFY_INLINE void offsets(lanes<float, N>& into, const double* x, double frequency, double offset) {
+    reduced<N>(into, x, frequency, offset,
+               [](auto& part, const auto& u) INSONIFY_INLINE_LAMBDA { insonify::detail::convert(part, u); });
+}
+
+/// x[i] frequency + offset minus the nearest integer, for N positions.
+template <int N>
+INSONIFY_INLINE void turns(lanes<float, N>& into, const double* x, double frequency, double offset) {
+    reduced<N>(into, x, frequency, offset, [](auto& part, const auto& u) INSONIFY_INLINE_LAMBDA {
+        constexpr double whole = 0x1.8p52;  // added, it leaves the nearest integer in the last bits
+        insonify::detail::convert(part, std::remove_cvref_t<decltype(u)>(u - ((u + whole) - whole)));
+    });
 }
 
 }  // namespace seabed::detail::inline INSONIFY_FLAGS
@@ -9205,24 +9222,6 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed::detail::inline INSONIFY_FLAGS {
-
-/// x[i] frequency + offset minus the nearest integer, for N positions.
-template <int N>
-INSONIFY_INLINE void turns(lanes<float, N>& into, const double* x, double frequency, double offset) {
-    constexpr double whole = 0x1.8p52;  // added, it leaves the nearest integer in the last bits
-    constexpr int half = N > 1 ? N / 2 : 1;
-    lanes<float, half> part[2];
-    for (int k = 0; k < (N > 1 ? 2 : 1); ++k) {
-        lanes<double, half> u;
-        insonify::detail::load(u, x + k * half);
-        u = u * frequency + offset;
-        insonify::detail::convert(part[k], lanes<double, half>(u - ((u + whole) - whole)));
-    }
-    if constexpr (N == 1)
-        into = part[0];
-    else
-        join<N>(into, part[0], part[1]);
-}
 
 /// Evaluates a `ripple_system`.
 class ripple_train {
@@ -14224,6 +14223,12 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& shader, image_view
     return stats;
 }
 
+/// Shaders that one of the overloads of `draw` with a framebuffer takes.
+template <class VertexShader, class Shader, class Pixel>
+concept drawing_shaders = vertex_shader<VertexShader> &&(fragment_shader<Shader, varyings_of<VertexShader>, Pixel> ||
+                                                         (std::is_void_v<Pixel> && varying_shader<VertexShader> &&
+                                                          fragment_lane_shader<Shader, varyings_of<VertexShader>>));
+
 }  // namespace detail::inline INSONIFY_FLAGS
 
 inline namespace INSONIFY_FLAGS {
@@ -14297,6 +14302,20 @@ draw_stats draw(const mesh_view& m, const VertexShader& vertex_shader, const Lan
         return shaded;
     };
     return detail::draw_tiles<true>(m, vertex_shader, target.depth, options, ex, records.data(), shade);
+}
+
+/// The error for shaders that `draw` cannot call.
+template <class VertexShader, class Shader, class Pixel, class... Others>
+    requires(!detail::drawing_shaders<VertexShader, Shader, Pixel>)
+draw_stats draw(const mesh_view&, const VertexShader&, const Shader&, const framebuffer<Pixel>&, Others&&...) {
+    static_assert(
+        vertex_shader<VertexShader>,
+        "a vertex shader takes a const vertex& and returns a glm::vec4, or a placed_vertex whose varyings can "
+        "be interpolated: see raster/shader.hpp");
+    static_assert(!vertex_shader<VertexShader>,
+                  "a fragment shader takes a const fragment<Varyings>&, of the vertex shader's varyings, and returns a "
+                  "value for the framebuffer's pixel: see raster/shader.hpp");
+    return {};
 }
 
 }  // namespace INSONIFY_FLAGS

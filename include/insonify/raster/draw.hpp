@@ -62,6 +62,12 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& shader, image_view
     return stats;
 }
 
+/// Shaders that one of the overloads of `draw` with a framebuffer takes.
+template <class VertexShader, class Shader, class Pixel>
+concept drawing_shaders = vertex_shader<VertexShader> &&(fragment_shader<Shader, varyings_of<VertexShader>, Pixel> ||
+                                                         (std::is_void_v<Pixel> && varying_shader<VertexShader> &&
+                                                          fragment_lane_shader<Shader, varyings_of<VertexShader>>));
+
 }  // namespace detail::inline INSONIFY_FLAGS
 
 inline namespace INSONIFY_FLAGS {
@@ -135,6 +141,20 @@ draw_stats draw(const mesh_view& m, const VertexShader& vertex_shader, const Lan
         return shaded;
     };
     return detail::draw_tiles<true>(m, vertex_shader, target.depth, options, ex, records.data(), shade);
+}
+
+/// The error for shaders that `draw` cannot call.
+template <class VertexShader, class Shader, class Pixel, class... Others>
+    requires(!detail::drawing_shaders<VertexShader, Shader, Pixel>)
+draw_stats draw(const mesh_view&, const VertexShader&, const Shader&, const framebuffer<Pixel>&, Others&&...) {
+    static_assert(
+        vertex_shader<VertexShader>,
+        "a vertex shader takes a const vertex& and returns a glm::vec4, or a placed_vertex whose varyings can "
+        "be interpolated: see raster/shader.hpp");
+    static_assert(!vertex_shader<VertexShader>,
+                  "a fragment shader takes a const fragment<Varyings>&, of the vertex shader's varyings, and returns a "
+                  "value for the framebuffer's pixel: see raster/shader.hpp");
+    return {};
 }
 
 }  // namespace INSONIFY_FLAGS

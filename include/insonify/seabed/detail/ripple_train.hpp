@@ -27,24 +27,6 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed::detail::inline INSONIFY_FLAGS {
 
-/// x[i] frequency + offset minus the nearest integer, for N positions.
-template <int N>
-INSONIFY_INLINE void turns(lanes<float, N>& into, const double* x, double frequency, double offset) {
-    constexpr double whole = 0x1.8p52;  // added, it leaves the nearest integer in the last bits
-    constexpr int half = N > 1 ? N / 2 : 1;
-    lanes<float, half> part[2];
-    for (int k = 0; k < (N > 1 ? 2 : 1); ++k) {
-        lanes<double, half> u;
-        insonify::detail::load(u, x + k * half);
-        u = u * frequency + offset;
-        insonify::detail::convert(part[k], lanes<double, half>(u - ((u + whole) - whole)));
-    }
-    if constexpr (N == 1)
-        into = part[0];
-    else
-        join<N>(into, part[0], part[1]);
-}
-
 /// Evaluates a `ripple_system`.
 class ripple_train {
   public:

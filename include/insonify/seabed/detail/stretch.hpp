@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <type_traits>
+#include <utility>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -133,11 +135,12 @@ INSONIFY_INLINE void locate(lanes<float, N>& across, lanes<std::int32_t, N>& cel
     }
 }
 
-/// x[i] frequency + offset for N positions, rounded to float: the sum has to be small.
-template <int N>
-INSONIFY_INLINE void offsets(lanes<float, N>& into, const double* x, double frequency, double offset) {
+/// `reduce(part, u)` turns u = x[i] frequency + offset, in doubles, into floats, for half of N positions at a time.
+template <int N, class Reduce>
+INSONIFY_INLINE void reduced(lanes<float, N>& into, const double* x, double frequency, double offset,
+                             const Reduce& reduce) {
     if constexpr (N == 1) {
-        into = static_cast<float>(*x * frequency + offset);
+        reduce(into, *x * frequency + offset);
     } else {
         constexpr int half = N / 2;
         lanes<float, half> part[2];
@@ -145,10 +148,26 @@ INSONIFY_INLINE void offsets(lanes<float, N>& into, const double* x, double freq
             lanes<double, half> u;
             insonify::detail::load(u, x + k * half);
             u = u * frequency + offset;
-            insonify::detail::convert(part[k], u);
+            reduce(part[k], u);
         }
         join<N>(into, part[0], part[1]);
     }
+}
+
+/// x[i] frequency + offset for N positions, rounded to float: the sum has to be small.
+template <int N>
+INSONIFY_INLINE void offsets(lanes<float, N>& into, const double* x, double frequency, double offset) {
+    reduced<N>(into, x, frequency, offset,
+               [](auto& part, const auto& u) INSONIFY_INLINE_LAMBDA { insonify::detail::convert(part, u); });
+}
+
+/// x[i] frequency + offset minus the nearest integer, for N positions.
+template <int N>
+INSONIFY_INLINE void turns(lanes<float, N>& into, const double* x, double frequency, double offset) {
+    reduced<N>(into, x, frequency, offset, [](auto& part, const auto& u) INSONIFY_INLINE_LAMBDA {
+        constexpr double whole = 0x1.8p52;  // added, it leaves the nearest integer in the last bits
+        insonify::detail::convert(part, std::remove_cvref_t<decltype(u)>(u - ((u + whole) - whole)));
+    });
 }
 
 }  // namespace seabed::detail::inline INSONIFY_FLAGS
