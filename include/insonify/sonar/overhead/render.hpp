@@ -35,6 +35,7 @@ class overhead_painter {
         // The first draw clears it.
         out_.image = image<float>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
         require_not_negative("reach", options.reach);
+        check(draw_options_of(depth_load::clear), out_.image.view());  // tiles are counted before the first draw
         if constexpr (labelled) out_.labels = labels(s, rig.size.x, rig.size.y, ex);
         for (const target& t : s.targets)
             targets_.push_back(
@@ -175,6 +176,14 @@ class overhead_painter {
         return known;
     }
 
+    draw_options<Depth> draw_options_of(depth_load load) const {
+        return {.keep = keep_depth::larger,
+                .load = load,
+                .subpixel_bits = options_.subpixel_bits,
+                .tile = options_.tile,
+                .level = options_.level};
+    }
+
     /// Draws all surfaces: light where it is decided, and the visibility buffer.
     template <executor E>
     void draw_all(E& ex) {
@@ -195,14 +204,10 @@ class overhead_painter {
         if (surfaces_.empty()) into.clear({0, 0, rig.size.x, rig.size.y});
         for (std::size_t i = 0; i < surfaces_.size(); ++i) {
             const placed_mesh& placed = surfaces_[i].placed;
-            const draw_options<Depth> options{.keep = keep_depth::larger,
-                                              .load = i == 0 ? depth_load::clear : depth_load::keep,
-                                              .subpixel_bits = options_.subpixel_bits,
-                                              .tile = options_.tile,
-                                              .level = options_.level};
-            const draw_stats stats = draw(placed.shape, surface_vertex_shader(view_, placed),
-                                          surface_shader<Law>(view_, surfaces_[i], options_.law, into),
-                                          framebuffer<void>{depth}, options, ex);
+            const draw_stats stats =
+                draw(placed.shape, surface_vertex_shader(view_, placed),
+                     surface_shader<Law>(view_, surfaces_[i], options_.law, into), framebuffer<void>{depth},
+                     draw_options_of(i == 0 ? depth_load::clear : depth_load::keep), ex);
             (has_bottom() && i == 0 ? out_.stats.seabed : out_.stats.targets) += stats;
         }
     }
