@@ -14132,7 +14132,8 @@ struct lane_shading_kernel {
         f.weights[0] = right[1] * down[2] - down[1] * right[2];
         f.weights[1] = right[2] * down[0] - down[2] * right[0];
         f.weights[2] = right[0] * down[1] - down[0] * right[1];
-        f.front = ints(f.weights[0] + (f.weights[1] + f.weights[2]) < 0.0f);
+        // All bits set, in scalar builds, too, where a comparison is 1.
+        f.front = f.weights[0] + (f.weights[1] + f.weights[2]) < 0.0f ? ints{} - 1 : ints{};
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.weights[i] = f.weights[i] * inverse_w[i]; });
         const floats scale = 1.0f / (f.weights[0] + (f.weights[1] + f.weights[2]));
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.weights[i] = f.weights[i] * scale; });
