@@ -40,7 +40,7 @@ in::mesh rubble() {
 struct pictures {
     in::image<float> value{150, 110}, depth{150, 110}, seen_depth{150, 110};
     in::image<std::uint32_t> triangle{150, 110};
-    in::image<std::int32_t> front{150, 110};
+    in::image<std::int32_t> front{150, 110}, visible{150, 110};
 };
 
 /// A user's shader over lanes: stores a function of the varyings, and its other inputs.
@@ -61,6 +61,7 @@ struct lane_shader {
         f.store(into.value, x);
         f.store(into.seen_depth, depth);
         f.store(into.front, f.front);
+        f.store(into.visible, f.visible);
         std::uint32_t triangles[static_cast<unsigned>(N)];
         for (int k = 0; k < N; ++k) triangles[k] = f.triangles[k];
         in::pixel_lanes<std::uint32_t, N> ids;
@@ -109,6 +110,7 @@ TEST_CASE(
             continue;
         }
         ++shaded;
+        CHECK(lanes.visible.pixels()[i] == -1);
         CHECK(lanes.seen_depth.pixels()[i] == lanes.depth.pixels()[i]);
         worst = (std::max)(worst, std::abs(static_cast<double>(lanes.value.pixels()[i] - one.value.pixels()[i])));
     }

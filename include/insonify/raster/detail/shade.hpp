@@ -152,6 +152,7 @@ struct lane_shading_kernel {
     INSONIFY_INLINE int find(fragment_lanes<N, Varyings>* found, int x0, int y) const {
         using ints = lanes<std::int32_t, N>;
         const row_centers<N> row(screen.grid(), y);
+        const ints set = ints{} - 1;  // a comparison of single numbers is 1, not a mask
         ints column;
         iota<std::int32_t, N>(column);
         int count = 0;
@@ -159,7 +160,8 @@ struct lane_shading_kernel {
             const std::uint32_t* const ids = tile.id_at(x, y);
             lanes<std::uint32_t, N> shown;
             load(shown, ids);
-            const ints visible = ints(shown != tile_buffer<true>::invalid_id) & ints(column < pixels.x1 - x);
+            const ints visible =
+                (shown != tile_buffer<true>::invalid_id ? set : ints{}) & (column < pixels.x1 - x ? set : ints{});
             if (!any(ints(visible == 0))) {
                 shaded += N;
                 look_up<N>(found[count++], x, row, visible, true, ids);
@@ -239,7 +241,6 @@ struct lane_shading_kernel {
         f.weights[0] = right[1] * down[2] - down[1] * right[2];
         f.weights[1] = right[2] * down[0] - down[2] * right[0];
         f.weights[2] = right[0] * down[1] - down[0] * right[1];
-        // All bits set, in scalar builds, too, where a comparison is 1.
         f.front = f.weights[0] + (f.weights[1] + f.weights[2]) < 0.0f ? ints{} - 1 : ints{};
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.weights[i] = f.weights[i] * inverse_w[i]; });
         const floats scale = 1.0f / (f.weights[0] + (f.weights[1] + f.weights[2]));

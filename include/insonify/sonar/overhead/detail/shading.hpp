@@ -126,7 +126,8 @@ class surface_shader {
         floats normal[3], length, to_light[3];
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.interpolate(normal[i], i); });
         const floats square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
-        const ints invalid = f.visible & ~(ints(square > 0x1p-40f) & ints(square < 0x1p100f));
+        const ints usable = ints(square > 0x1p-40f) & ints(square < 0x1p100f);
+        const ints invalid = f.visible & ints(usable == 0);
         if (any(invalid)) use_facets<N>(normal, f, invalid);
         square_root<N>(length, normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
         length = length > 0.0f ? length : floats{} + 1.0f;
