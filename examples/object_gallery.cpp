@@ -1,4 +1,4 @@
-// Every built-in object as a side-scan sonar records it: object_gallery [out.png]
+// Every built-in object as a side-scan sonar records it: object_gallery [objects.png]
 //
 // Slant range, starboard channel: the sonar is on the left, shadows fall to the right.
 #include <insonify/core/thread_pool.hpp>
@@ -80,17 +80,14 @@ in::image<float> tile_of(const entry& e, in::thread_pool& pool) {
     return in::with_speckle(recorded, look, pool).image;
 }
 
-/// Gray values in decibels over 36 dB, with the bottom's median at a third. 32 levels keep the file short.
+/// Gray values in decibels over 36 dB; white is 23 dB above the median. 32 levels keep the file short.
 in::image<float> shown(in::image<float> intensity) {
     std::vector<float> sorted(intensity.pixels().begin(), intensity.pixels().end());
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::nth_element(sorted.begin(), middle, sorted.end());
-    const float median = std::max(*middle, 1e-12f);
-    for (float& i : intensity.pixels()) {
-        const float gray = std::clamp(0.36f + std::log10(i / median + 0.02f) / 3.6f, 0.0f, 1.0f);
-        i = std::round(31 * gray) / 31;
-    }
-    return intensity;
+    auto gray = std::move(intensity) | in::decibel_display{.white = 200 * std::max(*middle, 1e-12f), .range = 36};
+    for (float& g : gray.pixels()) g = std::round(31 * g) / 31;
+    return gray;
 }
 
 std::vector<entry> entries();

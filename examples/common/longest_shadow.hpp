@@ -10,12 +10,8 @@ namespace examples {
 struct longest_shadow {
     double tip = 0;                            ///< ground range where the shadow ends
     double ground_range = 0, slant_range = 0;  ///< of the vertex
+    double slant_length = 0;                   ///< of the shadow, in slant range; 0 if no vertex casts one
     double height = -1e30;                     ///< of the target's highest point above the datum
-
-    /// Length of the vertex's shadow in slant range.
-    double slant_length(double altitude) const {
-        return insonify::range_geometry::slant_range(tip, altitude) - slant_range;
-    }
 };
 
 /// @param visit  is called with each vertex as the ping sees it: across and along the track, and up
@@ -35,6 +31,7 @@ longest_shadow shadow_of(const insonify::target& t, const insonify::ping_frame& 
         s.tip = tip;
         s.ground_range = across_along.x;
         s.slant_range = geometry::slant_range(across_along.x, altitude, world.z);
+        s.slant_length = geometry::slant_shadow_length(across_along.x, altitude, world.z);
     }
     return s;
 }

@@ -23,12 +23,13 @@
 
 namespace examples {
 
-/// Whether bytes begin like a picture in a format that `parse_gray` reads.
+/// Whether bytes begin like a PGM, PPM or PFM.
 inline bool is_netpbm(std::string_view bytes) {
     return bytes.size() >= 3 && bytes[0] == 'P' &&
            std::string_view("2356Ff").find(bytes[1]) != std::string_view::npos &&
            std::string_view(" \t\r\n#").find(bytes[2]) != std::string_view::npos;
 }
+/// Whether bytes begin like a picture in a format that `parse_gray` reads.
 inline bool is_picture(std::string_view bytes) {
     return is_netpbm(bytes) || bytes.starts_with(png_signature) || bytes.starts_with(jpeg_signature) ||
            bytes.starts_with("BM");
@@ -46,7 +47,8 @@ inline insonify::image<float> parse_gray(std::string_view bytes, const std::stri
     }
     if (!is_picture(bytes)) fail("is not a PNG, JPEG, BMP, PGM, PPM or PFM");
 
-    if (bytes.starts_with(png_signature) && !has_whole_chunks(bytes)) fail("ends within a chunk, is a part of a PNG");
+    if (bytes.starts_with(png_signature) && !has_whole_chunks(bytes))
+        fail("is a truncated PNG: it ends within a chunk");
     if (bytes.starts_with(jpeg_signature) && !has_sound_huffman_tables(bytes))
         fail("is damaged: a JPEG with a Huffman table of more than 256 symbols, or beyond its segment");
 

@@ -8,10 +8,11 @@
 static unsigned char* packed(unsigned char* bytes, int count, int* packed_count, int level) {
     libdeflate_compressor* const compressor = libdeflate_alloc_compressor(level);
     if (compressor == nullptr) return nullptr;
-    const std::size_t most = libdeflate_zlib_compress_bound(compressor, static_cast<std::size_t>(count));
-    auto* const out = static_cast<unsigned char*>(std::malloc(most));  // stb frees it
+    const std::size_t upper_bound = libdeflate_zlib_compress_bound(compressor, static_cast<std::size_t>(count));
+    auto* const out = static_cast<unsigned char*>(std::malloc(upper_bound));  // stb frees it
     const std::size_t size =
-        out == nullptr ? 0 : libdeflate_zlib_compress(compressor, bytes, static_cast<std::size_t>(count), out, most);
+        out == nullptr ? 0
+                       : libdeflate_zlib_compress(compressor, bytes, static_cast<std::size_t>(count), out, upper_bound);
     libdeflate_free_compressor(compressor);
     *packed_count = static_cast<int>(size);
     return out;

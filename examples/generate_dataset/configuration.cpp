@@ -46,7 +46,7 @@ std::string differences(const json& before, const json& now, const std::string& 
 json configuration_of(const options& o, const std::vector<input>& inputs) {
     const auto pair = [](const range& r) { return json::array({r.low, r.high}); };
     std::vector<std::string> meshes;
-    for (const std::string& mesh : o.meshes) meshes.push_back(mesh.substr(0, mesh.find('=')));
+    for (const std::string& mesh : o.meshes) meshes.push_back(class_of(mesh));
     json files = json::object();
     for (std::size_t i = 0; i < inputs.size(); ++i)
         files[std::to_string(i) + " " + inputs[i].option + " " + inputs[i].name] = {{"bytes", inputs[i].bytes},

@@ -15,6 +15,8 @@
 
 #include <string>
 
+#include "object_kinds.hpp"
+
 namespace generator {
 
 namespace in = insonify;
@@ -132,23 +134,6 @@ inline in::mesh plane_of(const object_form& f, in::random_sequence& draw) {
 }
 
 }  // namespace detail
-
-/// A kind and its range of lengths, metres, sampled logarithmically.
-struct object_kind {
-    const char* name;
-    double shortest, longest;
-};
-inline constexpr object_kind object_kinds[] = {{"ship", 5, 110},    {"plane", 7, 32},   {"truncated_cone", 0.6, 1.4},
-                                               {"wedge", 0.7, 1.3}, {"tyre", 0.5, 1.8}, {"pipe", 3, 30},
-                                               {"boulder", 0.5, 5}, {"crate", 0.6, 6},  {"lobster_pot", 0.6, 1.2},
-                                               {"cylinder", 1, 3},  {"cube", 0.4, 1.2}, {"cone", 0.5, 1.2},
-                                               {"sphere", 0.4, 1.2}};
-
-inline const object_kind* kind_named(const std::string& name) {
-    for (const object_kind& k : object_kinds)
-        if (name == k.name) return &k;
-    return nullptr;
-}
 
 /// @throws insonify::io_error for an unknown kind
 inline in::mesh mesh_of(const object_form& f) {

@@ -46,11 +46,47 @@ void check_geometry(const options& o) {
                                                      " m, exceed 100000 m; reduce one of them");
 }
 
+/// Refuses options that would have no effect.
+void refuse_options(const is_given& given, std::initializer_list<const char*> names, const std::string& reason) {
+    for (const char* const name : names)
+        if (given(name)) throw CLI::ValidationError(name, reason);
+}
+
+void check_recipe(const options& o, const is_given& given) {
+    if (o.is_sonar()) {
+        const char* const reason = "belongs to --recipe published; recipe sonar samples its own";
+        refuse_options(given, {"--demo", "--mesh", "--mesh-up", "--target-size", "--aspect", "--tilt", "--burial"},
+                       reason);
+        refuse_options(given, {"--heightmap", "--heightmap-spacing", "--heightmap-scale"}, reason);
+        refuse_options(given, {"--mode", "--chip", "--altitude", "--grazing", "--distance", "--beam"}, reason);
+        refuse_options(given, {"--intensity", "--sky", "--reflectivity"}, reason);
+        refuse_options(given, {"--reference", "--match", "--noise", "--colormap"}, reason);
+        if (!o.table)
+            refuse_options(given, {"--seabeds", "--aspects"}, "belongs to --recipe published, or to a --plan");
+        return;
+    }
+    refuse_options(given, {"--empty", "--visible-share"}, "belongs to --recipe sonar");
+    const std::vector<std::string> primitives = primitive_names();
+    for (const std::string& target : o.targets)
+        if (std::find(primitives.begin(), primitives.end(), target) == primitives.end())
+            throw CLI::ValidationError("--targets", "'" + target + "' belongs to --recipe sonar");
+}
+
+/// Refuses options of the other modes of recipe published. Lines of a plan may have any mode.
+void check_mode(const options& o, const is_given& given) {
+    if (o.is_sonar() || (o.table && o.table->has("mode"))) return;
+    const std::string reason = "has no effect in --mode " + o.mode + "; it needs ";
+    if (o.is_overhead())
+        refuse_options(given, {"--distance", "--beam"}, reason + "a side-scan mode, such as --mode slant_range");
+    else
+        refuse_options(given, {"--grazing", "--intensity", "--sky"}, reason + "--mode overhead");
+}
+
 /// Displays are a sonar's; only one in decibels has a range.
 void check_display(const options& o, const is_given& given) {
-    for (const char* const name : {"--display", "--white", "--display-range"})
-        if (given(name) && !o.is_sonar() && o.is_overhead())
-            throw CLI::ValidationError(name, "needs a side-scan mode, such as --mode slant_range");
+    if (!o.is_sonar() && o.is_overhead())
+        refuse_options(given, {"--display", "--white", "--display-range"},
+                       "needs a side-scan mode, such as --mode slant_range");
     const bool has_range = o.display == "decibels" || (o.display.empty() && o.is_sonar()) || o.table;
     if (o.display_range && !has_range)
         throw CLI::ValidationError("--display-range", "needs --display decibels; other displays have no range");
@@ -84,10 +120,9 @@ options parsed(int argc, const char* const* argv,
     std::uint64_t input_limit = examples::usual_input_limit >> 20;
     std::string shard, plan, aspects, target_size, aspect, tilt, burial, altitude, grazing, distance, beam, white,
         display_range;
-    const CLI::Validator target_names =
-        CLI::IsMember({"cylinder", "cube", "cone", "sphere", "ship", "plane", "truncated_cone", "wedge", "tyre", "pipe",
-                       "boulder", "crate", "lobster_pot"});
-    const CLI::Validator seabed_names = CLI::IsMember({"ripples", "mud", "rock", "sand", "mixed", "heightmap"});
+    const auto one_of = [](const auto& names) {
+        return CLI::IsMember(std::vector<std::string>(std::begin(names), std::end(names)));
+    };
 
     const char* const what = "What to make";
     app.add_option("--out", o.out, "Folder of the data set; created if missing")
@@ -120,7 +155,7 @@ options parsed(int argc, const char* const* argv,
                    "In addition to 8-bit PNG: png16, npy, pfm (16 bits or float), webdataset (tar files of a thousand\n"
                    "samples each)")
         ->delimiter(',')
-        ->check(CLI::IsMember(std::vector<std::string>(std::begin(format_names), std::end(format_names))))
+        ->check(one_of(format_names))
         ->group(what);
     app.add_flag("--preview", o.preview, "Write preview.html, a page to browse the set")->group(what);
     app.add_flag("--demo", o.demo, "Every target on every seabed, plain and matched with a reference")->group(what);
@@ -160,7 +195,7 @@ options parsed(int argc, const char* const* argv,
     app.add_option("--targets", o.targets,
                    "Classes of targets, taken in turn (cylinder,cube,cone,sphere; recipe sonar: ship,plane)")
         ->delimiter(',')
-        ->check(target_names)
+        ->check(one_of(kind_names()))
         ->group(scene);
     app.add_option("--mesh", o.meshes, "CLASS=FILE.obj: add a mesh as a class; may be repeated")->group(scene);
     app.add_option("--mesh-up", o.mesh_up, "Up axis of the meshes: y or z (y)")
@@ -168,7 +203,7 @@ options parsed(int argc, const char* const* argv,
         ->group(scene);
     app.add_option("--seabeds", o.seabeds, "Of ripples,mud,rock,sand,mixed,heightmap; taken in turn (ripples,mud,rock)")
         ->delimiter(',')
-        ->check(seabed_names)
+        ->check(one_of(seabed_names))
         ->group(scene);
     app.add_option("--heightmap", o.heightmap, "Heights of the seabed `heightmap`: PNG of 8 or 16 bits, PGM or PFM")
         ->check(CLI::ExistingFile)
@@ -196,14 +231,16 @@ options parsed(int argc, const char* const* argv,
         ->check(number(0, 1e4))
         ->group(rig);
     app.add_option("--altitude", altitude, "Range of altitude, metres (3.5:5; side-scan modes: 3:10)")->group(rig);
-    app.add_option("--grazing", grazing, "Range of the light's grazing angle, degrees (6)")->group(rig);
-    app.add_option("--distance", distance, "Range of the target's distance from the track, in altitudes (2:9)")
+    app.add_option("--grazing", grazing, "Overhead: range of the light's grazing angle, degrees (6)")->group(rig);
+    app.add_option("--distance", distance,
+                   "Side-scan modes: range of the target's distance from the track, in altitudes (2:9)")
         ->group(rig);
-    app.add_option("--beam", beam, "Range of the along-track beamwidth, degrees (0.2:0.5)")->group(rig);
-    app.add_option("--intensity", o.intensity, "Intensity on a surface that faces the light (4)")
+    app.add_option("--beam", beam, "Side-scan modes: range of the along-track beamwidth, degrees (0.2:0.5)")
+        ->group(rig);
+    app.add_option("--intensity", o.intensity, "Overhead: intensity on a surface that faces the light (4)")
         ->check(number(0, 1e6))
         ->group(rig);
-    app.add_option("--sky", o.sky, "Ambient intensity (0.05)")->check(number(0, 1e6))->group(rig);
+    app.add_option("--sky", o.sky, "Overhead: ambient intensity (0.05)")->check(number(0, 1e6))->group(rig);
     app.add_option("--reflectivity", o.reflectivity, "Reflectivity of targets; seabeds have 0.4 to 0.6 (0.9)")
         ->check(number(0, 1e6))
         ->group(rig);
@@ -245,34 +282,23 @@ options parsed(int argc, const char* const* argv,
         const auto given = [&](const char* name) { return !app.get_option(name)->empty(); };
         o.input_limit = input_limit << 20;
         if (!plan.empty()) apply_plan(o, plan, given);
+        check_recipe(o, given);
         if (o.is_sonar()) {
-            // Options of the other recipe are refused rather than ignored.
-            for (const char* const name :
-                 {"--demo", "--mesh",         "--heightmap", "--target-size", "--aspect",   "--tilt",    "--burial",
-                  "--mode", "--chip",         "--altitude",  "--grazing",     "--distance", "--beam",    "--intensity",
-                  "--sky",  "--reflectivity", "--reference", "--match",       "--noise",    "--colormap"})
-                if (given(name))
-                    throw CLI::ValidationError(name, "belongs to --recipe published; recipe sonar samples its own");
-            if (given("--seabeds") && !o.table)
-                throw CLI::ValidationError("--seabeds", "belongs to --recipe published, or to a --plan");
-            if (given("--aspects") && !o.table)
-                throw CLI::ValidationError("--aspects", "belongs to --recipe published, or to a --plan");
             if (!given("--seabeds")) o.seabeds.clear();
             if (!given("--size")) o.size = 128;
             if (!given("--targets")) o.targets = {"ship", "plane"};
-        } else {
-            for (const char* const name : {"--empty", "--visible-share"})
-                if (given(name)) throw CLI::ValidationError(name, "belongs to --recipe sonar");
-            for (const std::string& target : o.targets)
-                if (target != "cylinder" && target != "cube" && target != "cone" && target != "sphere")
-                    throw CLI::ValidationError("--targets", "'" + target + "' belongs to --recipe sonar");
         }
         if (!o.is_sonar() && !o.is_overhead()) {
             if (!given("--size")) o.size = 128;
-            if (o.chip == 0) o.chip = 5;
+            if (!given("--chip")) o.chip = 5;
+            if (o.chip == 0)
+                throw CLI::ValidationError("--chip", "'0' must be above 0 in --mode " + o.mode +
+                                                         ": metres a side; only --mode overhead has a field of view");
             if (!given("--noise")) o.noise = {"seabed"};
             o.altitude = {3, 10};
         }
+        if (o.demo && !given("--count")) o.count = 24;
+        if (o.demo && !given("--noise") && o.is_overhead()) o.noise = {"speckle:0.05"};
         apply_aspects(o, aspects);
         const auto take = [](const char* name, const std::string& text, range& into, double lowest, double highest) {
             if (!text.empty()) into = parse_range(name, text);
@@ -294,6 +320,7 @@ options parsed(int argc, const char* const* argv,
         };
         take_if_given("--white", white, o.white, 1e-3, 1e6);
         take_if_given("--display-range", display_range, o.display_range, 1, 400);
+        check_mode(o, given);
         check_display(o, given);
         for (const noise_step& step : noise_steps(o))
             if (step.kind == "seabed" && o.is_overhead())
@@ -311,7 +338,6 @@ options parsed(int argc, const char* const* argv,
             throw CLI::ValidationError("--seabeds", "heightmap needs --heightmap FILE");
         if (!o.heightmap.empty() && !needs_map && !(o.table && o.table->has("seabed"))) o.seabeds = {"heightmap"};
         if (o.table) apply_plan_count(o, given);
-        if (o.demo && !given("--count")) o.count = 24;
         if (!o.per_class.empty() && !given("--count")) {
             o.count = 0;
             for (const class_count& c : class_counts(o)) o.count += c.count;
@@ -333,7 +359,6 @@ options parsed(int argc, const char* const* argv,
         refuse(app, error);
         throw;
     }
-    if (o.demo && app.get_option("--noise")->empty() && o.is_overhead()) o.noise = {"speckle:0.05"};
     return o;
 }
 

@@ -8,10 +8,14 @@
 #include <vector>
 
 #include "../common/input_file.hpp"
+#include "object_kinds.hpp"
 #include "plan_table.hpp"
 #include "shard.hpp"
 
 namespace generator {
+
+/// The seabeds of the recipe `published`.
+inline constexpr const char* seabed_names[] = {"ripples", "mud", "rock", "sand", "mixed", "heightmap"};
 
 /// Bounds of a value that is drawn uniformly for each image; a constant has low == high.
 struct range {
@@ -38,7 +42,7 @@ struct options {
     double visible_share = 0.1;          ///< lower bound, share of a target's outline; recipe sonar
     double empty = 0.4;                  ///< share of images without a target, recipe sonar
     std::vector<std::string> per_class;  ///< class=count
-    std::vector<std::string> targets{"cylinder", "cube", "cone", "sphere"};
+    std::vector<std::string> targets = primitive_names();
     std::vector<std::string> meshes;  ///< class=path
     std::string mesh_up = "y";
     std::vector<std::string> seabeds{"ripples", "mud", "rock"};

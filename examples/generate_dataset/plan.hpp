@@ -95,7 +95,7 @@ inline plan plan_image(const options& o, std::uint64_t index, const view_of_targ
     if (const auto known = class_names(o); std::find(known.begin(), known.end(), p.class_name) == known.end())
         s.refuse("class", "a class of --targets or --mesh");
     std::vector<weighted> seabeds;
-    for (const char* const name : {"ripples", "mud", "rock", "sand", "mixed", "heightmap"})
+    for (const char* const name : seabed_names)
         if (name != std::string("heightmap") || !o.heightmap.empty()) seabeds.push_back({name});
     p.seabed = s.choice("seabed", seabeds, view.seabed);
     const std::string target_id = s.name_of("target_id", view.target_id);

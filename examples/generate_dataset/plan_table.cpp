@@ -140,7 +140,7 @@ void plan_table::scan() {
     }
     if (rows_.empty()) throw plan_error("--plan " + name_ + ": has a header and no other line");
     std::sort(rows_.begin(), rows_.end(),
-              [](const place& a, const place& b) { return a.id != b.id ? a.id < b.id : a.line < b.line; });
+              [](const line_entry& a, const line_entry& b) { return a.id != b.id ? a.id < b.id : a.line < b.line; });
     for (std::size_t i = 1; i < rows_.size(); ++i)
         if (rows_[i].id == rows_[i - 1].id)
             row(i).refuse("index", "another than in line " + std::to_string(rows_[i - 1].line));
@@ -172,19 +172,16 @@ void plan_table::add_classes(const plan_row& row) {
     }
 }
 
-plan_row plan_table::row_at(const place& at) const {
+plan_row plan_table::row(std::size_t i) const {
+    const line_entry& at = rows_[i];
     csv_reader reader("--plan " + name_, std::string_view(text_).substr(at.begin), at.line);
     std::vector<std::string> cells;
     reader.next(cells);
     plan_row row{name_, at.line, {}};
-    for (std::size_t i = 0; i < columns_.size() && i < cells.size(); ++i)
-        if (!columns_[i].empty()) row.cells.emplace(columns_[i], std::move(cells[i]));
+    for (std::size_t c = 0; c < columns_.size() && c < cells.size(); ++c)
+        if (!columns_[c].empty()) row.cells.emplace(columns_[c], std::move(cells[c]));
     name_shape(row);
     return row;
-}
-
-plan_row plan_table::row(std::size_t i) const {
-    return row_at(rows_[i]);
 }
 
 }  // namespace generator

@@ -47,8 +47,9 @@ class plan_table {
     /// @throws plan_error, with line, column and value, for an invalid plan
     plan_table(std::string name, std::string text);
 
-    /// Number of lines that are not empty, in the order of their images.
+    /// Number of images or targets: lines after the header.
     std::size_t size() const { return rows_.size(); }
+    /// The i-th line, sorted by index.
     plan_row row(std::size_t i) const;
 
     /// Whether lines have an index; each of them is then one image.
@@ -66,11 +67,10 @@ class plan_table {
     const std::string& text() const { return text_; }
 
   private:
-    struct place {
+    struct line_entry {
         std::uint64_t id, begin;
         std::size_t line;
     };
-    plan_row row_at(const place& at) const;
     void name_columns(std::vector<std::string>& first, std::size_t line);
     void scan();
     void check_length(const std::vector<std::string>& cells, std::size_t line) const;
@@ -79,7 +79,7 @@ class plan_table {
     std::string name_, text_;
     std::vector<std::string> columns_;
     std::vector<std::string> classes_;
-    std::vector<place> rows_;
+    std::vector<line_entry> rows_;
     bool is_named_ = true;  ///< has a header
 };
 

@@ -59,7 +59,7 @@ target_geometry geometry_of(const in::side_scan_rig<Axis>& rig, const in::target
     });
     f.height = s.height;
     const double echo = slant ? s.slant_range : s.ground_range;
-    f.shadow = (slant ? geometry::slant_range(s.tip, altitude) : s.tip) - echo;
+    f.shadow = slant ? s.slant_length : s.tip - s.ground_range;
     const int end = seen.shadow_box.x1;
     f.shadow_measured = f.left_edge + end * f.metres_per_pixel - echo;
     f.shadow_is_cut = end >= rig.bins;

@@ -270,7 +270,8 @@ class Generator(unittest.TestCase):
         for mode in "overhead", "ground_range", "slant_range":
             run("--out", self.folder / mode, "--mode", mode, "--chip", 6, "--pixels", 256, "--count", 12, "--seed", 2,
                 "--targets", "sphere", "--seabeds", "sand", "--tilt", 0, "--burial", 0, "--aspect", 1, "--noise", "none",
-                "--altitude", "4:8", "--distance", "2:5", "--target-size", "0.5:0.8", "--grazing", "14:25")
+                "--altitude", "4:8", "--target-size", "0.5:0.8",
+                *(("--grazing", "14:25") if mode == "overhead" else ("--distance", "2:5")))
             for v, target, shadow in self.read_labels(self.folder / mode):
                 pixel, r, z = v["metres_per_pixel"], v["target_size_m"] / 2, v["target_z_m"]
                 a, x, slant = v["altitude_m"], v["ground_range_m"], mode == "slant_range"
@@ -409,9 +410,29 @@ class Generator(unittest.TestCase):
         self.assertIn("is not CLASS=COUNT", refusal("--out", "x", "--targets", "cube", "--per-class", "cone=3"))
 
     def test_options_of_the_other_recipe_are_refused(self):
-        self.assertIn("belongs to --recipe published", refusal("--recipe", "sonar", "--out", "x", "--mode", "overhead"))
+        for option, value in (("--mode", "overhead"), ("--mesh-up", "z"), ("--heightmap-spacing", 1),
+                              ("--heightmap-scale", 1)):
+            self.assertIn(f"{option}: belongs to --recipe published",
+                          refusal("--recipe", "sonar", "--out", "x", option, value))
         self.assertIn("belongs to --recipe sonar", refusal("--out", "x", "--empty", "0.5"))
         self.assertIn("belongs to --recipe sonar", refusal("--out", "x", "--targets", "ship"))
+
+    def test_options_of_other_modes_are_refused(self):
+        for mode, options in (("overhead", ("--distance", "--beam")),
+                              ("slant_range", ("--grazing", "--intensity", "--sky")),
+                              ("ground_range", ("--grazing", "--intensity", "--sky"))):
+            for option in options:
+                self.assertIn(f"{option}: has no effect in --mode {mode}",
+                              refusal("--out", "x", "--mode", mode, option, 3))
+        self.assertIn("--chip: '0' must be above 0 in --mode slant_range",
+                      refusal("--out", "x", "--mode", "slant_range", "--chip", 0))
+        # Lines of a plan may have any mode.
+        plan = self.folder / "plan.csv"
+        plan.write_text("index,class,mode,chip_m\n0,cube,slant_range,4\n1,cube,overhead,4\n")
+        run("--out", self.folder / "a", "--plan", plan, "--size", 32, "--distance", 3, "--grazing", 20)
+        slant, overhead = self.read_manifest(self.folder / "a")
+        self.assertEqual((slant["distance"], slant["light_deg"]), ("3.0", ""))
+        self.assertEqual((overhead["distance"], overhead["light_deg"]), ("", "20.0"))
 
     def test_masked_matching_keeps_shadows_dark(self):
         reference = pgm(self.folder / "r.pgm")

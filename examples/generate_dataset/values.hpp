@@ -7,7 +7,7 @@
 #include <string>
 
 #include "../common/option_values.hpp"
-#include "options.hpp"
+#include "views.hpp"
 
 namespace generator {
 
@@ -46,18 +46,14 @@ inline noise_step parse_noise(const std::string& text) {
     return {kind, strength};
 }
 
-/// The class of `--mesh CLASS=FILE`.
-inline std::string class_of(const std::string& mesh) {
-    return mesh.substr(0, mesh.find('='));
-}
-
 /// Checks class names: each names a folder and a category, so it must be unique and plain.
 inline void check_classes(const options& o) {
     const auto lower = [](std::string text) {
         for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
         return text;
     };
-    std::vector<std::string> taken{"cylinder", "cube", "cone", "sphere", "shadow"};
+    std::vector<std::string> taken = primitive_names();
+    taken.push_back("shadow");
     for (std::size_t i = 0; i < o.targets.size(); ++i)
         if (std::count(o.targets.begin(), o.targets.end(), o.targets[i]) > 1)
             throw CLI::ValidationError("--targets", "'" + o.targets[i] + "' appears twice; name each class once");
@@ -82,9 +78,10 @@ inline void check_classes(const options& o) {
 inline void check_counts(const options& o) {
     std::set<std::string> known(o.targets.begin(), o.targets.end()), counted;
     for (const std::string& mesh : o.meshes) known.insert(class_of(mesh));
-    if (o.is_sonar())
-        known.insert({"cylinder", "cube", "cone", "sphere", "ship", "plane", "truncated_cone", "wedge", "tyre", "pipe",
-                      "boulder", "crate", "lobster_pot", "empty"});
+    if (o.is_sonar()) {
+        for (const std::string& name : kind_names()) known.insert(name);
+        known.insert("empty");
+    }
     for (const std::string& text : o.per_class) {
         const std::size_t equals = text.find('=');
         const std::string name = text.substr(0, equals);

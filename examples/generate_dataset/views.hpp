@@ -10,10 +10,15 @@
 
 namespace generator {
 
+/// The class of `--mesh CLASS=FILE`.
+inline std::string class_of(const std::string& mesh) {
+    return mesh.substr(0, mesh.find('='));
+}
+
 /// The classes of a data set, in the order of their category numbers (from 1).
 inline std::vector<std::string> class_names(const options& o) {
     std::vector<std::string> names = o.targets;
-    for (const std::string& mesh : o.meshes) names.push_back(mesh.substr(0, mesh.find('=')));
+    for (const std::string& mesh : o.meshes) names.push_back(class_of(mesh));
     return names;
 }
 
@@ -68,27 +73,23 @@ inline plan_row line_of_plan(const options& o, std::uint64_t i) {
 }
 
 /// The class of an image, and how many images of that class come before it.
-struct turn_of_class {
-    std::size_t of_class;
-    std::uint64_t before;
+struct class_turn {
+    std::size_t class_index;
+    std::uint64_t previous_images;
 };
-inline turn_of_class turn_at(const options& o, const std::vector<std::string>& classes, std::uint64_t i) {
+inline class_turn turn_at(const options& o, const std::vector<std::string>& classes, std::uint64_t i) {
     const std::vector<class_count> counts = class_counts(o);
     std::uint64_t total = 0;
     for (const class_count& c : counts) total += c.count;
     if (total == 0) return {static_cast<std::size_t>(i % classes.size()), i / classes.size()};
     std::uint64_t at = i % total;
-    for (const class_count& c : counts) {
-        if (at < c.count) {
-            const auto found = std::find(classes.begin(), classes.end(), c.name);
-            return {static_cast<std::size_t>(found - classes.begin()), i / total * c.count + at};
-        }
-        at -= c.count;
-    }
-    return {};
+    auto c = counts.begin();
+    for (; at >= c->count; ++c) at -= c->count;
+    const auto found = std::find(classes.begin(), classes.end(), c->name);
+    return {static_cast<std::size_t>(found - classes.begin()), i / total * c->count + at};
 }
 
-/// The i-th image of the published recipe.
+/// The i-th image of the published recipe, or of a plan.
 inline view_of_target view_of(const options& o, std::uint64_t i) {
     const std::uint64_t aspects = (std::max<std::uint64_t>)(o.aspects.size(), 1);
     const auto aspect = [&](std::uint64_t n) {
@@ -101,9 +102,9 @@ inline view_of_target view_of(const options& o, std::uint64_t i) {
     if (o.table) return {"", seabed(i / aspects), "", o.table->has_ids() ? std::nullopt : aspect(i)};
     const std::vector<std::string> classes = class_names(o);
     const std::uint64_t scene = o.demo ? i % (classes.size() * seabeds) : i;
-    const auto [of_class, before] = turn_at(o, classes, scene);
-    view_of_target v{classes[of_class], seabed(before), "", aspect(before / seabeds)};
-    if (v.aspect) v.target_id = std::to_string(before / (seabeds * aspects) * classes.size() + of_class + 1);
+    const auto [class_index, previous] = turn_at(o, classes, scene);
+    view_of_target v{classes[class_index], seabed(previous), "", aspect(previous / seabeds)};
+    if (v.aspect) v.target_id = std::to_string(previous / (seabeds * aspects) * classes.size() + class_index + 1);
     return v;
 }
 
@@ -113,7 +114,7 @@ inline view_of_target view_of_sonar(const options& o, std::uint64_t i) {
     if (!o.per_class.empty()) {
         std::vector<std::string> classes;
         for (const class_count& c : class_counts(o)) classes.push_back(c.name);
-        return {classes[turn_at(o, classes, i).of_class], "", "", {}};
+        return {classes[turn_at(o, classes, i).class_index], "", "", {}};
     }
     const auto empties = [&](std::uint64_t images) {
         return static_cast<std::uint64_t>(static_cast<double>(images) * o.empty);

@@ -13,18 +13,18 @@ struct chip {
 
 /// @param metres  a side
 inline chip draw_chip(scene& s, double metres, std::size_t pixels) {
-    constexpr std::size_t samples = 2;  // to a pixel
+    constexpr std::size_t samples_per_pixel = 2;
     const double pixel = metres / static_cast<double>(pixels);
-    waterfall w(pixels, samples * pixels, pixel, s.left_edge, pixel / samples);
+    waterfall w(pixels, samples_per_pixel * pixels, pixel, s.left_edge, pixel / samples_per_pixel);
     receiver sonar(s, w);
     sonar.record();
 
     chip c{pixels, std::vector<std::uint8_t>(pixels * pixels)};
     for (std::size_t y = 0; y < pixels; ++y)
         for (std::size_t x = 0; x < pixels; ++x) {
-            double power = 0;  // of level bottom: 1
-            for (std::size_t i = samples * x; i < samples * (x + 1); ++i)
-                power += std::norm(w.row(y)[i]) / (sonar.bottom_power(w.range(i)) * samples);
+            double power = 0;  // mean power relative to level bottom
+            for (std::size_t i = samples_per_pixel * x; i < samples_per_pixel * (x + 1); ++i)
+                power += std::norm(w.row(y)[i]) / (sonar.bottom_power(w.range(i)) * samples_per_pixel);
             const double shown = std::pow(std::min(1.0, std::sqrt(power) / s.rig.white), s.rig.gamma);
             c.gray[(pixels - 1 - y) * pixels + x] = static_cast<std::uint8_t>(255 * shown + 0.5);
         }

@@ -62,6 +62,13 @@ class contact_list {
         }
     }
 
+    /// Writes all contacts and closes the table.
+    /// @param total  number of pings of the survey
+    void finish(std::int64_t total, const in::side_scan& rig) {
+        close(total, rig, true);
+        table_.close();
+    }
+
   private:
     contact& seen(std::uint16_t number, in::side side, const fix& at, const sight& in_sight) {
         const auto [entry, is_new] = open_.try_emplace({number, side});
@@ -101,7 +108,7 @@ class contact_list {
                     format(",%.3f,%.3f,%.3f,%.3f,%.3f,%.2f,%.1f,%.3f,%.3f", position.x, position.y, shadow.height,
                            geometry::slant_range(ground, altitude), altitude,
                            in::numeric::to_degrees(geometry::grazing_angle(ground, altitude)),
-                           in::numeric::to_degrees(aspect), shadow.slant_length(altitude), measured) +
+                           in::numeric::to_degrees(aspect), shadow.slant_length, measured) +
                     (c.shadow_end + 1 >= rig.bins || at_an_end ? ",true" : ",false") +
                     (farthest > static_cast<double>(rig.range) || at_an_end ? ",true" : ",false"));
     }

@@ -39,7 +39,9 @@ class logbook {
     }
 
     void finish(std::int64_t total, const in::side_scan& rig) {
-        contacts_.close(total, rig, true);
+        for (pgm_stream* const file : {&waterfall_, &targets_, &shadows_, &seabed_}) file->close();
+        navigation_.close();
+        contacts_.finish(total, rig);
         pages_.finish();
         in::write_png(folder_ + "/map.png", map_.picture());
     }

@@ -1,4 +1,4 @@
-// Files that grow by the row: pictures of which only the width is kept in memory, and tables.
+// Appends rows to PGM and CSV files.
 #pragma once
 
 #include <insonify/insonify.hpp>
@@ -32,6 +32,12 @@ class pgm_stream {
         }
         row(std::span<const std::uint8_t>(bytes_));
     }
+    /// Flushes the file. The destructor does so, too, but ignores errors such as a full disk.
+    /// @throws io_error if the file can't be written
+    void close() {
+        file_.close();
+        check();
+    }
 
   private:
     void check() {
@@ -48,10 +54,18 @@ class csv_stream {
     csv_stream(const std::string& path, const std::string& header) : path_(path), file_(path) { line(header); }
     void line(const std::string& text) {
         file_ << text << '\n';
-        if (!file_) throw in::io_error(path_ + ": can't be written");
+        check();
+    }
+    /// Flushes the file. @throws io_error if it can't be written
+    void close() {
+        file_.close();
+        check();
     }
 
   private:
+    void check() {
+        if (!file_) throw in::io_error(path_ + ": can't be written");
+    }
     std::string path_;
     std::ofstream file_;
 };
@@ -64,7 +78,7 @@ std::string format(const char* pattern, Values... values) {
     return text;
 }
 
-/// Keeps the last rows and writes them as a picture when there are enough: gray, and copper to look at.
+/// Collects rows into pages of fixed height, written as gray and copper PNGs.
 class pages {
   public:
     pages(const std::string& folder, int width, int height) : folder_(folder), page_(width, height) {}

@@ -98,6 +98,14 @@ class Survey(unittest.TestCase):
         self.assertEqual(checked, {"cylinder", "cube", "cone", "sphere"})
         self.assertIn("true", {c["shadow_is_cut"] for c in contacts})
 
+    @unittest.skipUnless(pathlib.Path("/dev/full").exists(), "needs /dev/full")
+    def test_a_full_disk_is_reported(self):
+        for name in "waterfall.pgm", "targets.pgm", "shadows.pgm", "seabed.pgm", "navigation.csv", "contacts.csv":
+            out = self.folder / name.replace(".", "_")
+            out.mkdir()
+            (out / name).symlink_to("/dev/full")
+            self.assertIn(f"{name}: can't be written", run("--out", out, *SMALL, expect=1))
+
     def test_a_longer_track_takes_no_more_memory(self):
         def most_memory(length):
             code = ("import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True, stdout=subprocess.DEVNULL);"
