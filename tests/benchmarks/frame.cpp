@@ -1,34 +1,18 @@
 // Times of the parts of a frame: frame [threads] [cells] [pixels] prints the median of nine, in milliseconds, part by
 // part.
 //
-// The scene is the reference workload's: a rippled seabed of cells x cells and a cylinder, seen from 10 m by a camera
-// of 120 degrees, lit at 6 degrees; everything but memory is recomputed in every frame.
+// A scene like the reference workload's, with the library's own ripples and the light along x: a seabed of cells x
+// cells and a cylinder, seen from 10 m by a camera of 120 degrees, lit at 6 degrees. Everything but memory is
+// recomputed in every frame.
 #include <insonify/all.hpp>
 #include <insonify/core/thread_pool.hpp>
 
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <vector>
+
+#include "median_ms.hpp"
 
 namespace in = insonify;
-
-namespace {
-
-template <class Fn>
-double median_ms(const Fn& work) {
-    std::vector<double> times;
-    for (int i = 0; i < 9; ++i) {
-        const auto start = std::chrono::steady_clock::now();
-        work();
-        times.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
-    }
-    std::nth_element(times.begin(), times.begin() + 4, times.end());
-    return times[4];
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
     const int threads = argc > 1 ? std::atoi(argv[1]) : 2;

@@ -6,11 +6,11 @@
 #include <insonify/all.hpp>
 #include <insonify/core/thread_pool.hpp>
 
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <vector>
+#include <type_traits>
+
+#include "median_ms.hpp"
 
 namespace in = insonify;
 
@@ -18,14 +18,7 @@ namespace {
 
 template <class Fn>
 void print_median(const char* what, const Fn& work) {
-    std::vector<double> times;
-    for (int i = 0; i < 9; ++i) {
-        const auto start = std::chrono::steady_clock::now();
-        work();
-        times.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
-    }
-    std::nth_element(times.begin(), times.begin() + 4, times.end());
-    std::printf("  %-34s %7.1f ms\n", what, times[4]);
+    std::printf("  %-34s %7.1f ms\n", what, median_ms(work));
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Filters beside scikit-image's and Octave's: filters.py <conformance_filters> [folder of real pictures]
 
-Exits with 77 where scikit-image is not installed; without Octave, its comparisons are skipped with a message.
+Exits with 77 where scikit-image is not installed; without Octave and its image package, its comparisons are skipped
+with a message.
 """
 
 import pathlib
@@ -80,6 +81,13 @@ def as_kind(picture, kind):
     return np.round(picture * LARGEST[kind]).astype(np.uint8 if kind == "8" else np.uint16)
 
 
+def has_octave():
+    """Whether Octave and its image package are installed."""
+    if shutil.which("octave") is None:
+        return False
+    return subprocess.run(["octave", "--no-gui", "--quiet", "--eval", "pkg load image"], capture_output=True).returncode == 0
+
+
 def histeq_map(source, wanted, levels):
     """histeq(I, hgram) as MATLAB documents it, by its matrix of differences."""
     nn = np.bincount(source.ravel(), minlength=levels).astype(float)
@@ -100,11 +108,11 @@ with tempfile.TemporaryDirectory() as name:
         jobs.append(f"{what} {kind} {source} {argument} {result}\n")
         return result
 
-    # 100 pairs: a half of them of real pictures where there are any.
+    # 100 pairs: half of those of each kind are of real pictures where there are any.
     pairs = []
     for i in range(100):
         kind = ("8", "16", "float", "8")[i % 4]
-        make = patch if PICTURES and i % 2 == 0 else made_up
+        make = patch if PICTURES and i // 4 % 2 == 0 else made_up
         source, reference = as_kind(make(), kind), as_kind(make(), kind)
         paths = [folder / f"{i}.source", folder / f"{i}.reference"]
         write(paths[0], source)
@@ -147,8 +155,8 @@ with tempfile.TemporaryDirectory() as name:
     difference = np.abs(read(gray["rec709"]) - 255 * color.rgb2gray(colors)).max()
     check(difference <= 0.501, f"gray: {difference} levels from scikit-image's rgb2gray")
 
-    if shutil.which("octave") is None:
-        print("Without Octave (Debian, Ubuntu: octave octave-image)")
+    if not has_octave():
+        print("Skipped: Octave or its image package is not installed (Debian, Ubuntu: octave octave-image)")
     else:
         lines = ["pkg load image; warning off all;", f"cd '{folder}';"]
 
@@ -174,9 +182,12 @@ with tempfile.TemporaryDirectory() as name:
                   "w({'gaussian',imnoise(n,'gaussian',0,0.05)}); w({'gaussian_speckle',imnoise(n,'speckle',0.04)});",
                   "w({'salt_and_pepper',imnoise(n,'salt & pepper',0.05)});"]
         (folder / "script.m").write_text("1;\n" + "\n".join(lines))
-        subprocess.run(["octave", "--no-gui", "--quiet", str(folder / "script.m")], check=False, stderr=subprocess.DEVNULL)
+        octave = subprocess.run(["octave", "--no-gui", "--quiet", str(folder / "script.m")], stderr=subprocess.PIPE, text=True,
+                                errors="replace")
 
         def made(file, kind, shape):
+            if not (folder / file).exists():
+                sys.exit("\n".join(failures + [f"Octave (status {octave.returncode}) wrote no {file}:", octave.stderr]))
             return np.fromfile(folder / file, kind).reshape(shape[::-1]).T
 
         worst = 0

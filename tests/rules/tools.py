@@ -36,7 +36,8 @@ WRONG = [
 def main():
     project = pathlib.Path(sys.argv[1]).resolve()
     tools = [f for f in sorted((project / "tools").rglob("*")) if f.is_file() and f.read_bytes().startswith(b"#!")]
-    tools = [f for f in tools if f.name != "rules" and f.parent.name not in ("figures", "doxygen")]  # Debian's; for tools
+    # debian/rules is run by dpkg; figures/ and doxygen/ are helpers of other tools
+    tools = [f for f in tools if f.name != "rules" and f.parent.name not in ("figures", "doxygen")]
     faults = []
     with tempfile.TemporaryDirectory() as folder:
         marks = pathlib.Path(folder, "marks")
@@ -58,7 +59,8 @@ def main():
             done = run(tool, words)
             lacking = [m for m in mentions if m not in done.stderr]
             if done.returncode != 2 or done.stdout or lacking:
-                faults.append(f"{tool} {' '.join(words)}: status {done.returncode}, no {lacking} in {done.stderr!r}")
+                absent = f"no {lacking} in " if lacking else ""
+                faults.append(f"{tool} {' '.join(words)}: status {done.returncode}, {absent}{done.stderr!r}, {done.stdout!r}")
 
         for tool in tools:
             for word in ("--help", "-h"):

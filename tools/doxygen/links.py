@@ -55,13 +55,16 @@ def main():
             read[path] = (Markdown if path.suffix == ".md" else Page)(path.read_text(errors="replace"))
         return read[path]
 
-    files = [f for folder in paths for f in
-             ([folder] if folder.is_file() else sorted(folder.rglob("*.html")) + sorted(folder.rglob("*.md")))]
-    dead, links = [], 0
+    files, dead, links = [], [], 0
+    for path in paths:
+        found = [path] if path.is_file() else sorted(path.rglob("*.html")) + sorted(path.rglob("*.md"))
+        if not found:
+            sys.exit(f"no HTML or Markdown in {path}")
+        files += found
     for path in files:
         for link in page(path).links:
             parts = urllib.parse.urlsplit(link)
-            if parts.scheme or link.startswith(("//", "javascript:")):
+            if parts.scheme or link.startswith("//"):
                 continue
             links += 1
             to = (path.parent / urllib.parse.unquote(parts.path)).resolve() if parts.path else path.resolve()

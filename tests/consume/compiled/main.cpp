@@ -4,14 +4,23 @@
 #include "unit.hpp"
 
 int main() {
-    const in::image<float> expected = draw_alone(), heard = hear_alone(), looked = look_alone(expected);
-    const in::image<float> pictures[] = {draw_plain(), draw_debug(), draw_native(), draw_alone_native()};
-    bool same = !expected.empty() && !heard.empty();
-    for (const in::image<float>& picture : pictures)
-        same = same && picture == expected && look_plain(picture) == looked && look_debug(picture) == looked &&
-               look_native(picture) == looked && look_alone_native(picture) == looked;
-    for (const in::image<float>& recording : {hear_plain(), hear_debug(), hear_native(), hear_alone_native()})
-        same = same && recording == heard;
-    std::puts(same ? "Every unit draws the same bytes." : "A unit draws other bytes.");
+    const in::image<float> drawn = draw_alone(), recorded = record_alone(), filtered = filter_alone(drawn);
+    bool same = !drawn.empty() && !recorded.empty();
+    if (!same) std::puts("Unit alone returns an empty picture.");
+    const auto check = [&](const char* unit, const char* function, const in::image<float>& picture,
+                           const in::image<float>& expected) {
+        if (picture == expected) return;
+        std::printf("Unit %s: %s returns other bytes than in unit alone.\n", unit, function);
+        same = false;
+    };
+#define DRAW(unit) draw_##unit(),
+    const in::image<float> pictures[] = {UNITS(DRAW)};
+    int number = 0;
+#define CHECK_UNIT(unit)                               \
+    check(#unit, "draw", pictures[number++], drawn);   \
+    check(#unit, "record", record_##unit(), recorded); \
+    for (const in::image<float>& picture : pictures) check(#unit, "filter", filter_##unit(picture), filtered);
+    UNITS(CHECK_UNIT)
+    if (same) std::puts("Every unit draws the same bytes.");
     return same ? 0 : 1;
 }

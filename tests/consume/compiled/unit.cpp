@@ -15,7 +15,7 @@ in::image<float> JOIN(draw_, UNIT)() {
     return in::render(scene, {.altitude = 3, .size = {128, 96}, .grazing = 0.2f}).image;
 }
 
-in::image<float> JOIN(hear_, UNIT)() {
+in::image<float> JOIN(record_, UNIT)() {
     in::scene scene;
     scene.seabed = in::seabed::ripples{.wavelength = 0.7f};
     scene.add(in::cube{.size = glm::vec3(0.3f)}, {.position = {3, 1, 0.15}}, "cube");
@@ -24,6 +24,6 @@ in::image<float> JOIN(hear_, UNIT)() {
     return in::with_speckle(in::render(scene, rig, in::record_options<>{}.with(equation))).image;
 }
 
-in::image<float> JOIN(look_, UNIT)(const in::image<float>& picture) {
+in::image<float> JOIN(filter_, UNIT)(const in::image<float>& picture) {
     return picture | in::equalize{} | in::speckle{.variance = 0.1f, .seed = 7};
 }

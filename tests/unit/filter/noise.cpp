@@ -205,21 +205,27 @@ TEST_CASE("Noise of zero variance only clips") {
 }
 
 TEST_CASE("Parameters out of range are refused before a pixel changes") {
-    const in::image<float> source(2, 2, 0.5f);
+    const in::image<float> source{{-1, 0.25f, 2}, {0.5f, 0.75f, 1}};
+    const auto refuses = [&](const auto& noise) {
+        in::image<float> pixels = source;
+        CHECK_THROWS_AS(in::apply_in_place(pixels.view(), noise), in::invalid_input);
+        CHECK(pixels == source);
+    };
     const float inf = std::numeric_limits<float>::infinity();
     for (const float bad : {-0.1f, std::nanf(""), inf}) {
-        CHECK_THROWS_AS((source | in::gaussian{.variance = bad}), in::invalid_input);
-        CHECK_THROWS_AS((source | in::speckle{.variance = bad}), in::invalid_input);
-        CHECK_THROWS_AS((source | in::gaussian_speckle{.variance = bad}), in::invalid_input);
-        CHECK_THROWS_AS((source | in::poisson{.photons = bad}), in::invalid_input);
+        refuses(in::gaussian{.variance = bad});
+        refuses(in::speckle{.variance = bad});
+        refuses(in::gaussian_speckle{.variance = bad});
+        refuses(in::poisson{.photons = bad});
+        refuses(in::gaussian{} | in::speckle{.variance = bad});
     }
-    CHECK_THROWS_AS((source | in::gaussian{.mean = inf}), in::invalid_input);
-    CHECK_THROWS_AS((source | in::poisson{.photons = 0}), in::invalid_input);
+    refuses(in::gaussian{.mean = inf});
+    refuses(in::poisson{.photons = 0});
     CHECK_THROWS_WITH((source | in::speckle{.variance = -1}),
                       ContainsSubstring("speckle.variance is -1") && ContainsSubstring("at least 0"));
 }
 
-TEST_CASE("Noise on ten million pixels: moments after clipping, tails to 5 sigma, the law itself", "[.slow]") {
+TEST_CASE("Noise on ten million pixels: moments after clipping, tails to 4.5 sigma, the law itself", "[.slow]") {
     const in::image<float> half(4096, 2560, 0.5f);
     const auto n = static_cast<double>(half.size());
     for (const std::uint64_t seed : {1u, 2u}) {
@@ -230,7 +236,7 @@ TEST_CASE("Noise on ten million pixels: moments after clipping, tails to 5 sigma
                       0.04487, 1e-5, 1e-5);
         const auto normal = half | in::gaussian{.variance = 0.0025f, .seed = seed};
         CHECK(ks_distance(normal, [](double v) { return normal_cdf((v - 0.5) / 0.05); }) < 1.95 / std::sqrt(n));
-        for (const double sigmas : {2.0, 3.0, 4.0, 4.5, 5.0}) {
+        for (const double sigmas : {2.0, 3.0, 4.0, 4.5}) {
             const double expected = n * normal_cdf(-sigmas);
             double above = 0, below = 0;
             for (const float v : normal.pixels()) {
