@@ -31,6 +31,9 @@ inline std::vector<double> outside_whole(double least, double most) {
     return {least - 1, most + 1, -1e9};
 }
 
+/// Angles that are not finite, or of too many turns.
+inline const std::vector<double> not_an_angle = outside(-1e6, 1e6);
+
 /// A field: its name in messages, how it is set, and values that are refused.
 template <class T>
 struct field {

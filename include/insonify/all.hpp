@@ -11,6 +11,7 @@
 #include <insonify/core/simd/transpose.hpp>
 #include <insonify/filter/poisson.hpp>
 #include <insonify/geometry/bounds.hpp>
+#include <insonify/geometry/creases.hpp>
 #include <insonify/geometry/normals.hpp>
 #include <insonify/geometry/obj.hpp>
 #include <insonify/geometry/objects/aeroplane.hpp>
@@ -18,7 +19,6 @@
 #include <insonify/geometry/objects/boulder.hpp>
 #include <insonify/geometry/objects/compound.hpp>
 #include <insonify/geometry/objects/crate.hpp>
-#include <insonify/geometry/objects/creases.hpp>
 #include <insonify/geometry/objects/footprint.hpp>
 #include <insonify/geometry/objects/hull.hpp>
 #include <insonify/geometry/objects/hull_parameters.hpp>

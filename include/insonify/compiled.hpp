@@ -46,19 +46,23 @@ INSONIFY_SEABEDS(INSONIFY_SEABED)
 
 }  // namespace seabed::inline INSONIFY_ONCE
 
-inline namespace INSONIFY_ONCE {
+namespace detail {
 
 using matched_speckle = filter_chain<match_histogram, speckle>;
 using matched_gaussian = filter_chain<match_histogram, gaussian>;
 using equalized_speckle = filter_chain<equalize, speckle>;
 using displayed_looks = filter_chain<gamma_speckle, display>;
 
+}  // namespace detail
+
+inline namespace INSONIFY_ONCE {
+
 // Filters of what `render` draws. Others are compiled where they are used.
-#define INSONIFY_FILTERS(each)                                                                                       \
-    each(float, equalize) each(float, match_histogram) each(float, match_binned) each(float, gaussian)               \
-        each(float, speckle) each(float, salt_and_pepper) each(float, matched_speckle) each(float, matched_gaussian) \
-            each(float, equalized_speckle) each(float, gamma_speckle) each(float, display)                           \
-                each(float, displayed_looks) each(rgb8, color_table)
+#define INSONIFY_FILTERS(each)                                                                                      \
+    each(float, equalize) each(float, match_histogram) each(float, match_binned) each(float, gaussian)              \
+        each(float, speckle) each(float, salt_and_pepper) each(float, detail::matched_speckle)                      \
+            each(float, detail::matched_gaussian) each(float, detail::equalized_speckle) each(float, gamma_speckle) \
+                each(float, display) each(float, detail::displayed_looks) each(rgb8, color_table)
 #define INSONIFY_FILTER(Result, Filter)                               \
     image<Result> operator|(const image<float>& in, const Filter& f); \
     image<Result> operator|(image<float>&& in, const Filter& f);

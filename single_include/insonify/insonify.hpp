@@ -1082,7 +1082,7 @@ INSONIFY_INLINE glm::vec<3, T> product(const glm::mat<3, 3, T>& m, const glm::ve
             m[0].z * v.x + m[1].z * v.y + m[2].z * v.z};
 }
 
-/// The same for three coordinates that may be SIMD lanes.
+/// The same for three coordinates that may be SIMD lanes; `into` and `v` must not overlap.
 template <class Floats>
 INSONIFY_INLINE void product(Floats* into, const glm::mat3& m, const Floats* v) {
     into[0] = m[0].x * v[0] + m[1].x * v[1] + m[2].x * v[2];
@@ -1274,7 +1274,7 @@ inline sine_cosine sin_cos_turns(double x) {
     }
 }
 
-/// Sine and cosine of an angle in radians; the reduction adds |x| * 2e-16 of absolute error.
+/// Sine and cosine of an angle in radians, |x| < 2^50; the reduction adds |x| * 2e-16 of absolute error.
 inline sine_cosine sin_cos(double radians) {
     return sin_cos_turns(radians * (0.5 * std::numbers::inv_pi));
 }
@@ -1345,6 +1345,12 @@ void require_range(std::string_view argument, Number value, std::type_identity_t
 template <std::floating_point Number>
 void require_fraction(std::string_view argument, Number value) {
     require_range(argument, value, 0, 1, "0 to 1");
+}
+
+/// Refuses angles that are so many turns that sin_cos has no precision left for what remains of them.
+template <std::floating_point Number>
+void require_angle(std::string_view argument, Number value) {
+    require_range(argument, value, Number(-1e6), Number(1e6), "finite radians, within 10^6 of 0");
 }
 
 /// Calls `validate(value)` if the type has one.
@@ -3750,7 +3756,7 @@ class echo_law {
         const parameter &looks = statistics_.looks, &shape = statistics_.texture, &steady = statistics_.steady;
         const float whole = looks.is_constant() ? looks.value() : 0;
         require(whole >= 1 && whole <= 64 && whole == static_cast<float>(static_cast<int>(whole)),
-                "looks of correlated speckle", whole, "a whole number, 1 to 64, for all pixels");
+                "number of looks of correlated speckle", whole, "a whole number, 1 to 64, for all pixels");
         if (shape.is_constant() && shape.value() > 0) texture_.emplace(static_cast<double>(shape.value()));
         const auto speckle = rice_correlation(steady.is_constant() ? static_cast<double>(steady.value()) : 0);
         const double speckle_index = 1 / static_cast<double>(whole);
@@ -3891,7 +3897,8 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-inline void check_shape(const char* name, const parameter& shape) {
+/// Checks the shape of a gamma distribution.
+inline void require_gamma_shape(const char* name, const parameter& shape) {
     shape.check(
         name, [](float v) { return v >= 0.01f && v <= 1e6f; }, "0.01 to 1e6");
 }
@@ -3928,7 +3935,7 @@ struct gamma_speckle {
     /// @throws invalid_input for looks outside 0.01 to 1e6, a correlation length outside 0 to 16, or correlation with
     ///         looks other than one whole number from 1 to 64; on application, for a map of another size than the image
     INSONIFY_TAGGED auto pass() const {
-        detail::check_shape("gamma_speckle.looks", looks);
+        detail::require_gamma_shape("gamma_speckle.looks", looks);
         detail::require_correlation("gamma_speckle.correlation", correlation);
         return detail::echo_pass<detail::echo_draw::gamma>(detail::noise_stream::gamma_speckle, seed, frame,
                                                            {"gamma_speckle.looks", looks}, of, correlation);
@@ -3936,7 +3943,8 @@ struct gamma_speckle {
 };
 
 /// The K-distribution: speckle whose mean intensity is itself gamma-distributed from pixel to pixel. For one look,
-/// variance / mean^2 of the intensity is 1 + 2 / shape. Typical shapes: rock 0.5 to 2, gravel 2 to 4, sand 8 to 20.
+/// variance / mean^2 of the intensity is 1 + 2 / shape. Illustrative shapes: rock 0.5 to 2,
+/// gravel 2 to 4, sand 8 to 20.
 struct k_speckle {
     parameter shape = 4;  ///< of the mean, 0.01 to 1e6
     float looks = 1;      ///< 0.01 to 1e6
@@ -3953,8 +3961,8 @@ struct k_speckle {
     ///         correlation with looks other than a whole number from 1 to 64; on application, for a map of another size
     ///         than the image
     INSONIFY_TAGGED auto pass() const {
-        detail::check_shape("k_speckle.shape", shape);
-        detail::check_shape("k_speckle.looks", looks);
+        detail::require_gamma_shape("k_speckle.shape", shape);
+        detail::require_gamma_shape("k_speckle.looks", looks);
         detail::require_correlation("k_speckle.correlation", correlation);
         return detail::echo_pass<detail::echo_draw::by_looks>(detail::noise_stream::k_speckle, seed, frame,
                                                               {"k_speckle.shape", looks, shape}, of, correlation);
@@ -3966,7 +3974,7 @@ struct k_speckle {
 struct rician {
     parameter steady = 1;  ///< power of the steady echo over that of the others, 0 to 1e6; 0 is Rayleigh
     echo of = echo::amplitude;
-    /// With a map, the length is that of the other echoes, and up to 1.4 times as long for the sum.
+    /// With a map of `steady`, the length of the other echoes' intensity; that of the sum is up to 1.4 times as long.
     correlation_length correlation{};
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;  ///< which image of a set
@@ -4023,11 +4031,11 @@ struct to_gray {
     struct weighted_sum {
         gray_weights weights;
         template <pixel_code Channel>
-        Channel operator()(const rgb<Channel>& color) const {
+        INSONIFY_MEMBER Channel operator()(const rgb<Channel>& color) const {
             return static_cast<Channel>(weights.r * color.r + weights.g * color.g + weights.b * color.b + 0.5);
         }
         template <std::same_as<float> Channel>
-        Channel operator()(const rgb<Channel>& color) const {
+        INSONIFY_MEMBER Channel operator()(const rgb<Channel>& color) const {
             const double r = static_cast<double>(color.r), g = static_cast<double>(color.g),
                          b = static_cast<double>(color.b);
             return static_cast<Channel>(weights.r * r + weights.g * g + weights.b * b);
@@ -4281,7 +4289,7 @@ level_map<Pixel> map_levels(std::span<const std::uint64_t> source, std::span<con
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/filter/histogram.hpp -------------------------------------------------------------
-// Histograms with bins of equal width, and two filters of MATLAB's: histogram equalization and matching.
+// Histograms over equidistant levels, and two filters of MATLAB's: histogram equalization and matching.
 //
 // NaN is not counted and stays NaN. By MATLAB's rule, a constant image becomes the level at which the cumulative share
 // of the target histogram reaches one half, or its highest occupied level if the image is at level 0 or the last level.
@@ -4386,7 +4394,7 @@ class match_binned {
 
     /// @throws invalid_input for an empty histogram, or bins outside 2 to 65536
     INSONIFY_MEMBER explicit match_binned(histogram wanted) : wanted_(std::move(wanted)) {
-        detail::require(wanted_.counts.size() >= 2 && wanted_.counts.size() <= 65536, "wanted.counts.size()",
+        detail::require(wanted_.counts.size() >= 2 && wanted_.counts.size() <= 65536, "number of bins of match_binned",
                         wanted_.counts.size(), "2 to 65536");
         detail::require(wanted_.total() > 0, "number of pixels in the reference", wanted_.total(), "at least 1");
     }
@@ -5644,13 +5652,14 @@ inline affine inverse(const affine& map) {
 }
 
 /// From the object's frame to the world's: R = Rz(yaw) Ry(pitch) Rx(roll), p -> scale R p + position - (0, 0, burial).
-/// @throws invalid_input for a value that is not finite, or a scale that is not positive (mirror with an `affine`)
+/// @throws invalid_input for a value that is not finite, an angle beyond 10^6 radians, or a scale that is not positive
+/// (mirror with an `affine`)
 inline affine to_world(const pose& p) {
     using detail::require_finite;
     require_finite("pose.position", p.position);
-    require_finite("pose.yaw", p.yaw);
-    require_finite("pose.pitch", p.pitch);
-    require_finite("pose.roll", p.roll);
+    detail::require_angle("pose.yaw", p.yaw);
+    detail::require_angle("pose.pitch", p.pitch);
+    detail::require_angle("pose.roll", p.roll);
     require_finite("pose.burial", p.burial);
     detail::require_positive("pose.scale", p.scale);
 
@@ -6159,7 +6168,7 @@ struct ground_rect {
     glm::dvec2 lower{std::numeric_limits<double>::infinity()};
     glm::dvec2 upper{-std::numeric_limits<double>::infinity()};
 
-    /// Extends the rectangle to all positions within a margin of another along either axis.
+    /// Extends the rectangle by the square of half-width `margin` around a position.
     void include(const glm::dvec2& p, double margin = 0) {
         lower = {(std::min)(lower.x, p.x - margin), (std::min)(lower.y, p.y - margin)};
         upper = {(std::max)(upper.x, p.x + margin), (std::max)(upper.y, p.y + margin)};
@@ -7324,7 +7333,8 @@ inline std::string read_file(const std::string& path) {
 }
 
 /// A temporary file beside the one that it will replace. `commit` syncs it to disk and renames it; without a commit it
-/// is removed and the old file stays. A symbolic link is replaced, not followed.
+/// is removed and the old file stays. A symbolic link is replaced, not followed. The file is a new one: it has the
+/// process's default mode and owner, and other hard links keep the old content.
 ///
 /// The temporary name is the path with the first free suffix of .tmp0, .tmp1, ..., so that concurrent writers of one
 /// path do not collide; the last to commit wins.
@@ -7745,12 +7755,13 @@ struct draw_stats {
 }  // namespace insonify
 
 // ------------ insonify/seabed/registry.hpp --------------------------------------------------------------
-// Labels of the sea floor: the registry of the library's, and the properties of a label.
+// Registry of the labels of the sea floor and their properties.
 //
 // A label is one byte, stored in data sets. To add a type of relief, write its model in a file of its own and a row at
 // the end of INSONIFY_RELIEF_TYPES; to add a sediment, write a row at the end of INSONIFY_SEDIMENTS. The enumerations,
 // names in manifests, defaults of scenes and defaults of speckle are made from the rows. Labels number the rows in
-// order; `own_type(0)` and above are free for users' seabeds, which state their properties (see model.hpp).
+// order, so a new type of relief renumbers the sediments: manifests name the labels of their data set. `own_type(0)`
+// and above are free for users' seabeds, which state their properties (see model.hpp).
 
 #include <iterator>
 
@@ -7868,7 +7879,8 @@ struct sediment_facts {
     float steady;    ///< power of a steady echo over that of the diffuse ones
     sediment_form form{};
 
-    /// Root mean square height of what is shorter than a metre, metres: 2 pi w2 K^-1.25 / 1.25 at K = 2 pi / 100 cm.
+    /// Root mean square height of what is shorter than a metre, metres. Its square is 2 pi w2 K^-1.25 / 1.25, cm^2, at
+    /// K = 2 pi / 100 cm.
     INSONIFY_MEMBER float rms() const { return 0.12641f * numeric::square_root(strength); }
     /// The backscattering strength at normal incidence by Lambert's law, as a factor.
     INSONIFY_MEMBER constexpr float strength_at_nadir() const {
@@ -7879,7 +7891,7 @@ struct sediment_facts {
 #define INSONIFY_PROPERTIES(label, ...) {type::label, __VA_ARGS__},
 #define INSONIFY_SEDIMENT(label, ...) label = static_cast<int>(type::label),
 
-/// Sediments by name, from the coarsest to the finest: each has the value of its label.
+/// Sediments by name; each has the value of its label.
 enum class sediment : std::uint8_t { INSONIFY_SEDIMENTS(INSONIFY_SEDIMENT) };
 
 /// The rows of types of relief.
@@ -7900,8 +7912,12 @@ constexpr type type_of(sediment s) {
 }
 
 /// The row of a sediment.
+/// @throws invalid_input for a value that is no enumerator
 constexpr const sediment_facts& facts_of(sediment s) {
-    return sediments[static_cast<std::size_t>(s) - std::size(relief_types)];
+    const std::size_t row = static_cast<std::size_t>(s) - std::size(relief_types);
+    if (row >= std::size(sediments))
+        insonify::detail::refuse("sediment", static_cast<int>(s), "an enumerator of seabed::sediment");
+    return sediments[row];
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -8135,10 +8151,10 @@ inline namespace INSONIFY_FLAGS {
 template <model M>
 auto prepare(const M& m) {
     using sampler_type = decltype(detail::sampler_of(m));
-    if constexpr (single_typed<M> && sampler<sampler_type>)
-        return detail::with_kind<sampler_type>{detail::sampler_of(m), label_of(m.kind)};
-    else
+    if constexpr (typed_sampler<sampler_type>)
         return detail::sampler_of(m);
+    else
+        return detail::with_kind<sampler_type>{detail::sampler_of(m), label_of(m.kind)};
 }
 
 /// The label of the whole seabed, if it has only one.
@@ -8225,7 +8241,7 @@ namespace seabed {
 struct none {
     static constexpr type kind = type::sand;
 
-    /// Never evaluated: an empty seabed has no heights.
+    /// Makes this a model; `any` never evaluates it.
     struct sampler {
         void row(const scanline&, std::span<float> heights) const {
             std::fill(heights.begin(), heights.end(), std::numeric_limits<float>::quiet_NaN());
@@ -8297,11 +8313,13 @@ struct model_interface {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Erases the type of a sampler. The call goes through a function pointer because compilers drop unused virtual
-/// functions late: programs would pay for seabeds that they don't use.
+/// Erases the type of a sampler. An `any_sampler` is returned as it is: it owns what it refers to. The call goes
+/// through a function pointer because compilers drop unused virtual functions late: programs would pay for seabeds that
+/// they don't use.
 /// @param owner  kept alive for as long as the sampler, which may refer to it
 template <typed_sampler S>
 any_sampler hold_sampler(S sampler, std::shared_ptr<const void> owner = nullptr) {
+    if constexpr (std::same_as<S, any_sampler>) return sampler;
     struct held {
         S sampler;
         std::shared_ptr<const void> owner;
@@ -8460,20 +8478,21 @@ INSONIFY_INLINE void catmull_rom(T& into, const T (&p)[4], const T& t) {
             d = 0.5f * (p[3] - p[0]) + 1.5f * (p[1] - p[2]);
     into = p[1] + t * (b + t * (c + t * d));
 }
-constexpr float mix(float a, float b, float t) {
-    return a + t * (b - a);
+/// Linear interpolation, exact at both ends.
+constexpr float lerp(float a, float b, float t) {
+    return a * (1 - t) + b * t;
 }
-[[nodiscard]] constexpr float clamp01(float t) {
+[[nodiscard]] constexpr float saturate(float t) {
     return t < 0 ? 0 : t > 1 ? 1 : t;
 }
-/// (1 - r^2)^2: 1 in the middle; its value and slope are 0 from a distance of 1 on.
+/// The biweight kernel (1 - r^2)^2: 1 in the middle; its value and slope are 0 from a distance of 1 on.
 template <class T>
-constexpr T brush(T r) {
+constexpr T biweight(T r) {
     const T inside = r * r < 1 ? 1 - r * r : T(0);
     return inside * inside;
 }
 template <class Lanes>
-INSONIFY_INLINE void clamp_lanes(Lanes& t) {
+INSONIFY_INLINE void saturate_lanes(Lanes& t) {
     const Lanes zero{}, one = zero + 1.0f;
     t = t > 0.0f ? t : zero;
     t = t < 1.0f ? t : one;
@@ -8503,7 +8522,7 @@ namespace seabed::detail::inline INSONIFY_FLAGS {
 
 using insonify::detail::lanes;
 
-/// Random streams: every layer of every model has its own.
+/// Random streams of the layers of models.
 enum class stream : std::uint32_t {
     sand = 0x5EAB0000,
     ripples,
@@ -9153,7 +9172,7 @@ class round_marks {
             lanes<float, N> dx, inside, sum;
             offsets<N>(dx, &part.x[i], l.frequency, -left);
             inside = 1.0f - (dx * dx + y_square) * inverse_square;
-            clamp_lanes(inside);
+            saturate_lanes(inside);
             insonify::detail::load(sum, values + i);
             sum = sum + height * inside * inside;
             insonify::detail::store(values + i, sum);
@@ -9184,7 +9203,7 @@ namespace seabed {
 ///
 /// Crests fork 2 pi spread bandwidth / wavelength^2 times per square metre.
 struct ripple_system {
-    float wavelength = 0.8f;  ///< metres, > 0: from crest to crest
+    float wavelength = 0.8f;  ///< metres, 0.0001 to 10^6: from crest to crest
     float steepness = 0.11f;  ///< in [0, 0.5]: height from trough to crest, over the wavelength
     float direction = 0;      ///< radians from +x: where the wave vector points, across the crests
     float spread = 0.09f;     ///< radians, in [0, 0.5]: standard deviation of the direction; forks grow with it
@@ -9235,9 +9254,9 @@ class ripple_train {
     /// @param name  of the system, for errors
     ripple_train(const ripple_system& r, std::uint64_t seed, stream purpose, const std::string& name)
         : wavelength_(static_cast<double>(r.wavelength)), half_height_(r.height() / 2), sharpness_(r.sharpness) {
-        require_positive_metres(name + ".wavelength", r.wavelength);
+        require_range(name + ".wavelength", r.wavelength, 1e-4f, 1e6f, "metres, 0.0001 to 10^6");
         require_range(name + ".steepness", r.steepness, 0, 0.5f, "0 to 0.5");
-        require(numeric::is_finite(r.direction), name + ".direction", r.direction, "a finite angle");
+        insonify::detail::require_angle(name + ".direction", r.direction);
         require_range(name + ".spread", r.spread, 0, 0.5f, "0 to 0.5 radians");
         require_range(name + ".bandwidth", r.bandwidth, 0, 0.25f, "0 to 0.25");
         require_range(name + ".sharpness", r.sharpness, 0, 0.9f, "0 to 0.9");
@@ -9323,7 +9342,7 @@ class ripple_train {
         return side * 2.449489742783178;
     }
 
-    /// The envelope at `count` points of the lattice; writes whole vectors.
+    /// The envelope at `count` points of the lattice.
     template <int N>
     INSONIFY_INLINE void envelope(float* re, float* im, std::int64_t from, double y, std::size_t count) const {
         for (std::size_t done = 0; done < count;) {
@@ -9536,10 +9555,10 @@ class trawl_furrows {
         const lattice_coordinate u(along * f.per_length + static_cast<double>(bits) * 0x1p-32);
         const cell_hash::row presence = hash_[static_cast<std::int64_t>((std::uint64_t{bits} << 8) + n + 64)];
         const auto present = [&](std::int64_t cell) { return (presence(cell) & 1) != 0 ? 1.0f : 0.0f; };
-        const float strength = mix(present(u.cell), present(u.cell + 1), fade(clamp01(8 * u.fraction - 7)));
+        const float strength = lerp(present(u.cell), present(u.cell + 1), fade(saturate(8 * u.fraction - 7)));
         // A bowl down to -1 that rises to a berm of 0.3, which ends at twice the half width.
-        const float inner = clamp01(1 - off * off);
-        return depth_ * strength * (off < 1 ? 0.3f - 1.3f * inner * inner : 0.3f * fade(clamp01(2 - off)));
+        const float inner = saturate(1 - off * off);
+        return depth_ * strength * (off < 1 ? 0.3f - 1.3f * inner * inner : 0.3f * fade(saturate(2 - off)));
     }
 
     dynamic_array<family> families_;
@@ -9652,13 +9671,13 @@ namespace seabed {
 
 /// Rippled sand. The first six parameters are those of `ripple_system`.
 struct ripples {
-    float wavelength = 0.8f;                             ///< metres, > 0: from crest to crest; nature has 0.05 to 1.5
-    float steepness = 0.11f;                             ///< in [0, 0.5]: height / wavelength; nature has 0.05 to 0.2
-    float direction = 0;                                 ///< radians from +x: across the crests
-    float spread = 0.09f;                                ///< radians, in [0, 0.5]: of the direction
-    float bandwidth = 0.09f;                             ///< in [0, 0.25]: of the wave number, relative
-    float sharpness = 0.25f;                             ///< in [0, 0.9]: of the crests, 0 for a sinusoid
-    ripple_system second{.steepness = 0};                ///< other waves' ripples, added; none if they have no height
+    float wavelength = 0.8f;               ///< metres, 0.0001 to 10^6: from crest to crest; nature has 0.05 to 1.5
+    float steepness = 0.11f;               ///< in [0, 0.5]: height / wavelength; nature has 0.05 to 0.2
+    float direction = 0;                   ///< radians from +x: across the crests
+    float spread = 0.09f;                  ///< radians, in [0, 0.5]: of the direction
+    float bandwidth = 0.09f;               ///< in [0, 0.25]: of the wave number, relative
+    float sharpness = 0.25f;               ///< in [0, 0.9]: of the crests, 0 for a sinusoid
+    ripple_system second{.steepness = 0};  ///< other waves' ripples, added; none if they have no height
     roughness surface{.rms = 0.0025f, .longest = 0.4f};  ///< fine relief on the ripples, beyond their height
     std::uint64_t seed = 1;
     type kind = type::ripples;
@@ -9930,9 +9949,9 @@ namespace seabed {
 /// N ~ size^-sizes; height is proportional to size.
 struct rock {
     float relief = 0.5f;     ///< metres, >= 0: about the height of outcrops with their blocks
-    float outcrop = 6.0f;    ///< metres, > 0: typical distance between outcrops
-    float block = 1.4f;      ///< metres, > 0: spacing of the largest blocks, which are 0.6 to 1.8 of it wide
-    float smallest = 0.3f;   ///< metres, in (0, block]: spacing of the smallest
+    float outcrop = 6.0f;    ///< metres, from 0.001: typical distance between outcrops
+    float block = 1.4f;      ///< metres, from 0.001: spacing of the largest blocks, which are 0.6 to 1.8 of it wide
+    float smallest = 0.3f;   ///< metres, in [0.001, block]: spacing of the smallest
     float sizes = 2.2f;      ///< in [0, 4]: exponent of the numbers of blocks; at 2 each class covers the same area
     float fracture = 0.5f;   ///< in [0, 1]: fraction of lattice cells that hold a block of the most frequent size
     float steepness = 2.5f;  ///< > 0: slope of the walls of blocks, 1 is 45 degrees
@@ -9954,12 +9973,12 @@ class rock_sampler {
   public:
     explicit rock_sampler(const rock& r) : surface_(r.surface, r.seed, detail::stream::rubble), relief_(r.relief) {
         detail::require_metres("rock.relief", r.relief);
-        detail::require_positive_metres("rock.outcrop", r.outcrop);
+        detail::require_range("rock.outcrop", r.outcrop, 1e-3f, 1e6f, "metres from 0.001");
         detail::require_positive_metres("rock.block", r.block);
         detail::require_range("rock.smallest", r.smallest, 1e-3f, r.block, "metres from 0.001 to rock.block");
         detail::require_range("rock.sizes", r.sizes, 0, 4, "0 to 4");
         detail::require_fraction("rock.fracture", r.fracture);
-        detail::require(r.steepness > 0 && r.steepness < 1e6f, "rock.steepness", r.steepness, "a slope above 0");
+        detail::require(r.steepness > 0 && r.steepness < 1e6f, "rock.steepness", r.steepness, "above 0 and below 10^6");
         double cell = static_cast<double>(r.outcrop) / 2;
         for (std::uint32_t k = 0; k < 3; ++k, cell /= 2)
             outcrops_.push_back(detail::gradient_noise(cell, {r.seed, detail::stream::outcrops, k}));
@@ -10011,7 +10030,7 @@ class rock_sampler {
             lanes n, step, height;
             load(n, &weights[i]);
             n = 0.5f + 1.8f * (n - 0.25f);
-            detail::clamp_lanes(n);
+            detail::saturate_lanes(n);
             detail::fade(step, n);
             load(height, heights + i);
             height = height + (0.4f * relief_) * step;
@@ -10149,6 +10168,8 @@ INSONIFY_ARITHMETIC_END
 // frame is affine, so triangles stay triangles; equal steps in (u, v) are equal steps on level ground at every
 // elevation; and level ground is level here too, so it needs no bias.
 
+#include <variant>
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
@@ -10166,16 +10187,19 @@ struct point_light {
     glm::dvec3 position{0, 0, 1};  ///< metres
 };
 
+/// A light of any kind.
+using any_light = std::variant<directional_light, point_light>;
+
 inline namespace INSONIFY_FLAGS {
 
 /// Frame of a directional light; coordinates are metres.
 class light_frame {
   public:
-    /// @throws invalid_input for an elevation outside (0, pi / 2] or an azimuth that isn't finite
+    /// @throws invalid_input for an elevation outside (0, pi / 2] or an azimuth beyond 10^6 radians
     explicit light_frame(const directional_light& light) {
         insonify::detail::require(light.elevation > 0 && light.elevation <= numeric::pi / 2 + 1e-7, "elevation",
                                   light.elevation, "above 0 and at most pi / 2");
-        insonify::detail::require(numeric::is_finite(light.azimuth), "azimuth", light.azimuth, "a finite angle");
+        insonify::detail::require_angle("azimuth", light.azimuth);
         const auto [sin_azimuth, cos_azimuth] = numeric::sin_cos(light.azimuth);
         const auto [sin_elevation, cos_elevation] = numeric::sin_cos(light.elevation);
         travel_ = {cos_azimuth, sin_azimuth};
@@ -10210,6 +10234,15 @@ inline glm::dvec3 toward_disc(const glm::dvec3& to_light, const glm::dvec2& trav
     return to_light + beside.x * across + beside.y * up;
 }
 
+/// A point of a disc of light that faces the origin.
+/// @param beside  offset from the centre, across and up, over the centre's distance from the origin
+inline glm::dvec3 point_of_disc(const glm::dvec3& centre, const glm::dvec2& beside) {
+    const double distance = numeric::square_root(numeric::dot(centre, centre));
+    const double level = numeric::square_root(centre.x * centre.x + centre.y * centre.y);
+    const glm::dvec2 travel = level > 0 ? glm::dvec2(-centre.x / level, -centre.y / level) : glm::dvec2(1, 0);
+    return distance > 0 ? distance * toward_disc(centre / distance, travel, beside) : centre;
+}
+
 }  // namespace INSONIFY_FLAGS
 
 }  // namespace shadow
@@ -10232,8 +10265,6 @@ INSONIFY_ARITHMETIC_END
 //
 // Parallel light is a shadow::directional_light; shadow::light_frame (light.hpp) has its direction as a vector. Casters
 // are the targets in the order of the scene, then the seabed, in the frame of the light.
-
-#include <variant>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -10302,9 +10333,6 @@ inline glm::dvec3 facet_of(std::span<const caster> casters, const points& at, st
     return numeric::cross(corner(1) - a, corner(2) - a);
 }
 
-/// A light of any kind.
-using any_light = std::variant<directional_light, point_light>;
-
 /// `structure.test(points, results)` sets all results. It is called for several batches at the same time.
 template <class S>
 concept occlusion = requires(const S& structure, const points& at, const results& into) {
@@ -10354,7 +10382,7 @@ double radius_of(const P& p) {
 
 /// An occlusion that is faster for all points of a picture at once. `structure.screen(points, results)` decides points
 /// that a cheap test can decide and sets the others to `unknown`; `structure.test(batches, results, executor)` decides
-/// those, all batches together, of at most `max_batch` points each.
+/// those, all batches together: at most `max_batches`, of at most `max_batch` points each.
 template <class S>
 concept collective_occlusion = occlusion<S> &&
     requires(const S& structure, const points& at, const results& into, std::span<const points> all_at,
@@ -10362,8 +10390,9 @@ concept collective_occlusion = occlusion<S> &&
     structure.screen(at, into);
     structure.test(all_at, all_into, ex);
 };
-inline constexpr std::size_t max_batch = 65536;  ///< points, see collective_occlusion
-inline constexpr float unknown = -1;             ///< in results::lit, between screening and testing
+inline constexpr std::size_t max_batch = 65536;    ///< points, see collective_occlusion
+inline constexpr std::size_t max_batches = 65536;  ///< see collective_occlusion
+inline constexpr float unknown = -1;               ///< in results::lit, between screening and testing
 
 /// Result of a test that may leave a triangle or a point undecided.
 enum class decision : std::uint8_t { lit, dark, undecided };
@@ -10796,6 +10825,11 @@ struct labels {
     std::vector<target_label> targets;
     std::vector<insonify::seabed::type_properties> legend;  ///< of the values of `seabed`
 
+    /// The label of a caster in `shadow`. Targets are the first casters.
+    INSONIFY_MEMBER static std::uint16_t of_caster(std::size_t caster, std::size_t targets) {
+        return caster < targets ? static_cast<std::uint16_t>(caster + 1) : by_seabed;
+    }
+
     labels() = default;
     template <executor_argument Executor = serial_executor>
     INSONIFY_MEMBER labels(int width, int height, Executor&& ex = serial_executor{})
@@ -10929,10 +10963,10 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input for a value out of range
 inline void validate(const ping& p) {
     detail::require_finite("ping.position", p.position);
-    detail::require_finite("ping.yaw", p.yaw);
+    detail::require_angle("ping.yaw", p.yaw);
     detail::require(numeric::abs(p.pitch) <= numeric::to_radians(80), "ping.pitch", p.pitch,
                     "at most 80 degrees, in radians");
-    detail::require_finite("ping.roll", p.roll);
+    detail::require_angle("ping.roll", p.roll);
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -10974,7 +11008,7 @@ void validate(const side_scan_rig<Axis>& rig) {
     using detail::require, detail::require_range;
     detail::require_finite("side_scan.position", rig.position);
     detail::require_finite("side_scan.altitude", rig.altitude);
-    detail::require_finite("side_scan.yaw", rig.yaw);
+    detail::require_angle("side_scan.yaw", rig.yaw);
     detail::require_positive("side_scan.ping_spacing", rig.ping_spacing);
     require_range("side_scan.pings", rig.pings, 1, 1 << 20, "1 to 2^20");
     detail::require_not_negative("side_scan.first_range", rig.first_range);
@@ -11144,14 +11178,14 @@ inline void validate(const overhead& rig) {
     using detail::require, detail::require_not_negative, detail::require_range;
     detail::require_finite("overhead.position", rig.position);
     detail::require_positive("overhead.altitude", rig.altitude);
-    require(numeric::is_finite(rig.yaw), "overhead.yaw", rig.yaw, "a finite angle");
+    detail::require_angle("overhead.yaw", rig.yaw);
     require(rig.field_of_view > 0 && static_cast<double>(rig.field_of_view) < numeric::to_radians(179.9),
             "overhead.field_of_view", rig.field_of_view, "above 0 and below 179.9 degrees, in radians");
     require_range("overhead.size.x", rig.size.x, 1, 32768, "1 to 32768");
     require_range("overhead.size.y", rig.size.y, 1, 32768, "1 to 32768");
-    require(rig.grazing > 0 && static_cast<double>(rig.grazing) <= numeric::pi / 2 + 1e-6, "overhead.grazing",
+    require(rig.grazing > 0 && static_cast<double>(rig.grazing) <= numeric::pi / 2 + 1e-7, "overhead.grazing",
             rig.grazing, "above 0 and at most pi / 2");
-    require(numeric::is_finite(rig.light_azimuth), "overhead.light_azimuth", rig.light_azimuth, "a finite angle");
+    detail::require_angle("overhead.light_azimuth", rig.light_azimuth);
     require(rig.light_distance > 0, "overhead.light_distance", rig.light_distance, "above 0 metres");
     require_not_negative("overhead.intensity", rig.intensity);
     require_not_negative("overhead.sky", rig.sky);
@@ -11176,6 +11210,11 @@ class overhead_geometry {
 
     const overhead& rig() const { return rig_; }
     const shadow::light_frame& light() const { return light_; }
+    /// The light, for shadow policies.
+    shadow::any_light light_source() const {
+        if (has_near_light()) return shadow::point_light{light_position()};
+        return shadow::directional_light{numeric::widened(rig_.light_azimuth), numeric::widened(rig_.grazing)};
+    }
     /// Direction from the datum below the camera to a point of the light, in units of the distance to its centre;
     /// `beside` is the offset from the centre, across and up, in the same unit.
     glm::dvec3 toward_light(const glm::dvec2& beside) const {
@@ -11722,7 +11761,7 @@ struct double_double {
         const double s = a + b, part = s - a;
         return {s, (a - (s - part)) + (b - part)};
     }
-    /// a b exactly, |a|, |b| < 2^995.
+    /// a b exactly, for |a|, |b| < 2^995 and 2^-960 < |a b| < 2^1023, or a b = 0.
     static double_double product(double a, double b) {
         const double p = a * b;
         const auto [a1, a0] = halves(a);
@@ -15218,12 +15257,12 @@ class horizon_walk {
     }
 
   private:
-    static constexpr double nothing = -std::numeric_limits<double>::infinity();
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
 
     /// u on the edges that the ray crosses in one column of cells.
     struct crossing {
-        double lowest = -nothing, highest = nothing;
-        double certain = nothing;  ///< the largest u that certainly lies before the point
+        double lowest = infinity, highest = -infinity;
+        double certain = -infinity;  ///< the largest u that certainly lies before the point
     };
 
     double row_at(double column) const { return w_ + grid_.slope * column; }
@@ -15238,7 +15277,8 @@ class horizon_walk {
             return false;
         for (const double x : {x_ - beside_, x_ + beside_})
             for (int row = clamped_row(y - beside_); row <= clamped_row(y + beside_); ++row)
-                if (!(highest(static_cast<int>(x), row, row) < u_ - horizon_.margin())) return false;
+                if (!(highest((std::min)(static_cast<int>(x), grid_.columns - 2), row, row) < u_ - horizon_.margin()))
+                    return false;
         return true;
     }
     /// The largest u of the corners of some cells of a column.
@@ -15253,14 +15293,14 @@ class horizon_walk {
     /// @param is_above  the ray begins on or over the surface, so that it meets whatever rises above it
     template <class Decide>
     bool walk(bool is_above, const Decide& decide) const {
-        const double doubt = u_ - horizon_.margin();
+        const double u_lower_bound = u_ - horizon_.margin();
         const auto greatest = static_cast<double>(horizon_.heights().greatest);
         if (!(x_ + beside_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
         int column = static_cast<int>((std::min)(x_ + beside_, static_cast<double>(grid_.columns - 2)));
         for (bool is_first = true; column >= 0; --column, is_first = false) {
             // Rows of cells that the ray crosses in this column.
             const double low = row_at(column), high = low + grid_.slope;
-            if (high < -beside_ || column + 1 + grid_.drop * greatest < doubt) return false;
+            if (high < -beside_ || column + 1 + grid_.drop * greatest < u_lower_bound) return false;
             if (!is_first && is_above) {
                 const decision rest = decide_before(column);
                 if (rest != decision::undecided) return rest == decision::dark;
@@ -15269,17 +15309,17 @@ class horizon_walk {
                 const int before = column - (block_heights::side - 1);
                 const float highest_before = blocks_.highest(
                     before / block_heights::side, clamped_row(row_at(before) - beside_), clamped_row(high + beside_));
-                if (static_cast<double>(highest_before) < doubt) {
+                if (static_cast<double>(highest_before) < u_lower_bound) {
                     column = before;
                     continue;
                 }
             }
             if (low > grid_.rows - 1 + beside_) continue;
             const int first_row = clamped_row(low - beside_), last_row = clamped_row(high + beside_);
-            if (highest(column, first_row, last_row) < doubt) continue;
+            if (highest(column, first_row, last_row) < u_lower_bound) continue;
             const double limit = is_first && is_above ? x_ - column : 2;
             const crossing crossed = cross(column, limit);
-            if (crossed.highest < doubt) continue;
+            if (crossed.highest < u_lower_bound) continue;
             const bool is_inside = low >= beside_ && high <= grid_.rows - 1 - beside_;
             if (is_above && is_inside && crossed.certain > u_ + horizon_.margin()) return true;
             if (!is_above && crossed.lowest > u_ + horizon_.margin()) continue;
@@ -15712,7 +15752,9 @@ using insonify::detail::dynamic_array;
 class batch_index {
   public:
     batch_index() = default;
-    batch_index(std::size_t batch, std::size_t point) : value_(static_cast<std::uint32_t>(batch * max_batch + point)) {}
+    batch_index(std::size_t batch, std::size_t point) : value_(static_cast<std::uint32_t>(batch * max_batch + point)) {
+        INSONIFY_ASSERT(batch < max_batches && point < max_batch);
+    }
 
     std::size_t batch() const { return value_ / max_batch; }
     std::size_t point() const { return value_ % max_batch; }
@@ -16359,7 +16401,7 @@ class exact_occlusion {
         test(std::span<const points>(parts), std::span<const results>(into_parts), serial);
     }
 
-    /// The same for many batches of at most `max_batch` points each.
+    /// The same for at most `max_batches` batches of at most `max_batch` points each.
     template <executor E>
     void test(std::span<const points> at, std::span<const results> into, E& ex) const {
         const detail::points_by_tile sorted(planes_, at, into, ex);
@@ -16530,6 +16572,61 @@ exact_occlusion exact::build(std::span<const caster> casters, const any_light& l
 }
 
 }  // namespace shadow
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/detail/casting_ground.hpp --------------------------------------------------
+// The ground that can throw a shadow on points that lie above a rectangle.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// The rectangle, extended towards the light to all ground that can throw a shadow on its points, by at most `longest`
+/// metres along either axis.
+///
+/// On its way to the light, a ray from the lowest point rises above the highest ground within (highest - lowest)
+/// cot(elevation) metres or, if the light is near, within that fraction of the distance to it; beyond, it meets
+/// nothing. For an extended light, the corners of a square around it are tried: the distance is a quotient of linear
+/// functions of the position on the light, so its maximum is in a corner.
+/// @param range     heights of the lowest point and of the highest ground
+/// @param radius    of the light over its distance
+/// @param is_near   whether the light is near
+/// @param light_at  light_at(offset): the position of a point of a near light, or the direction to one of a distant
+///                  light, by its offset from the centre, across and up, over the light's distance
+template <class Light>
+ground_rect casting_ground(const ground_rect& points, const seabed::height_range& range, double radius, double longest,
+                           bool is_near, const Light& light_at) {
+    ground_rect all = points;
+    const double relief = range.highest - range.lowest;
+    if (!(relief > 0)) return all;
+    const auto clamped = [&](double way) { return (std::max)(-longest, (std::min)(longest, way)); };
+    for (const double across : {-radius, radius})
+        for (const double up : {-radius, radius}) {
+            const glm::dvec3 light = light_at(glm::dvec2(across, up));
+            for (int axis = 0; axis < 2; ++axis) {
+                for (const double from : {points.lower[axis], points.upper[axis]}) {
+                    double way;
+                    if (is_near) {
+                        const double share = light.z > range.highest ? relief / (light.z - range.lowest) : 1;
+                        way = share * (light[axis] - from);
+                    } else {
+                        way = light.z > 0 ? relief / light.z * light[axis] : longest * (light[axis] < 0 ? -1 : 1);
+                    }
+                    const double end = from + clamped(way);
+                    all.lower[axis] = (std::min)(all.lower[axis], end);
+                    all.upper[axis] = (std::max)(all.upper[axis], end);
+                }
+            }
+        }
+    return all;
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -17577,6 +17674,31 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/seabed/detail/rise.hpp -----------------------------------------------------------
+// The rise of sampled heights between the neighbours of a vertex.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed::detail::inline INSONIFY_FLAGS {
+
+/// Twice the rise per cell, by central differences. Beside an edge or a missing neighbour the one-sided difference is
+/// doubled; it is 0 at a vertex without data.
+/// @param both  whether there are neighbours on both sides; at an edge, the vertex itself stands for the missing one
+inline float rise(float before, float at, float after, bool both = true) {
+    if (!numeric::is_finite(at)) return 0;
+    const bool has_before = numeric::is_finite(before), has_after = numeric::is_finite(after);
+    if (has_before && has_after) return both ? after - before : 2 * (after - before);
+    return has_after ? 2 * (after - at) : has_before ? 2 * (at - before) : 0.0f;
+}
+
+}  // namespace seabed::detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/normals.hpp ---------------------------------------------------------------
 // Normals of a heightfield, by finite differences of its vertices.
 //
@@ -17649,15 +17771,6 @@ class row_normals {
         const float dy = rise(back_[i], here_[i], ahead_[i], inner_);
         const float inverse = 1 / numeric::square_root(dx * dx + dy * dy + z_ * z_);
         out_[i] = {(0.0f - dx) * inverse, (0.0f - dy) * inverse, z_ * inverse};
-    }
-
-    /// Twice the rise per cell, by central differences. Beside an edge or a missing neighbour the one-sided difference
-    /// is doubled; it is 0 at a vertex without data.
-    static float rise(float before, float at, float after, bool both) {
-        if (!numeric::is_finite(at)) return 0;
-        const bool has_before = numeric::is_finite(before), has_after = numeric::is_finite(after);
-        if (has_before && has_after) return both ? after - before : 2 * (after - before);
-        return has_after ? 2 * (after - at) : has_before ? 2 * (at - before) : 0.0f;
     }
 
     std::size_t width_;
@@ -17794,8 +17907,8 @@ mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}, glm
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/overhead/detail/seabed_reach.hpp -------------------------------------------
-// The ground that an overhead picture shows, and the ground that can throw a shadow into it.
+// ------------ insonify/sonar/overhead/detail/sampled_bottom.hpp -----------------------------------------
+// The seabed of an overhead picture: sampled on a grid, as a mesh in the rig's frame.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -17811,58 +17924,6 @@ inline ground_rect shown_ground(const overhead_geometry& view, const seabed::hei
             for (const double height : {range.lowest, range.highest}) shown.include(view.corner(height, right, up));
     return shown;
 }
-
-/// The same, extended towards the light to all ground that can throw a shadow into view, by at most `longest` metres.
-///
-/// On its way to the light, a ray from the lowest ground rises above the highest within (highest - lowest)
-/// cot(elevation) metres or, if the light is near, within that fraction of the distance to it; beyond, it meets
-/// nothing. For an extended light, the corners of a square around it are tried: the distance is a quotient of linear
-/// functions of the position on the light, so its maximum is in a corner.
-/// @param radius  of the light over its distance
-inline ground_rect casting_ground(const overhead_geometry& view, const seabed::height_range& range, double radius,
-                                  double longest) {
-    const ground_rect shown = shown_ground(view, range);
-    ground_rect all = shown;
-    const double relief = range.highest - range.lowest;
-    const glm::dmat3 to_world = glm::transpose(view.rig_from({}).linear);
-    const auto clamped = [&](double way) { return (std::max)(-longest, (std::min)(longest, way)); };
-    for (const double across : {-radius, radius})
-        for (const double up : {-radius, radius}) {
-            const glm::dvec2 beside{across, up};
-            const glm::dvec3 toward = numeric::product(to_world, view.toward_light(beside));
-            const glm::dvec3 source = numeric::product(to_world, view.light_position(beside));
-            for (int axis = 0; axis < 2; ++axis) {
-                for (const double from : {shown.lower[axis], shown.upper[axis]}) {
-                    double way;
-                    if (view.has_near_light()) {
-                        const double share = source.z > range.highest ? relief / (source.z - range.lowest) : 1;
-                        way = share * (source[axis] - from);
-                    } else {
-                        way = toward.z > 0 ? relief / toward.z * toward[axis] : longest * (toward[axis] < 0 ? -1 : 1);
-                    }
-                    const double end = from + clamped(way);
-                    all.lower[axis] = (std::min)(all.lower[axis], end);
-                    all.upper[axis] = (std::max)(all.upper[axis], end);
-                }
-            }
-        }
-    return all;
-}
-
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/sonar/overhead/detail/sampled_bottom.hpp -----------------------------------------
-// The seabed of an overhead picture: sampled on a grid, as a mesh in the rig's frame.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace detail::inline INSONIFY_FLAGS {
 
 /// Sampled heights and their mesh; empty until `sample` is called.
 class sampled_bottom {
@@ -17939,32 +18000,6 @@ class sampled_bottom {
     surface_kind kind_ = surface_kind::heightfield;
     std::optional<regular_grid> grid_;
 };
-
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/sonar/detail/shadow_terms.hpp ----------------------------------------------------
-// Converts the light of a rig for shadow policies, and casters to shadow labels.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace detail::inline INSONIFY_FLAGS {
-
-/// The light of a rig, in its frame.
-inline shadow::any_light light_in_rig(const overhead_geometry& view) {
-    if (view.has_near_light()) return shadow::point_light{view.light_position()};
-    return shadow::directional_light{numeric::widened(view.rig().light_azimuth), numeric::widened(view.rig().grazing)};
-}
-
-/// The label of a caster in labels::shadow. Targets are the first casters.
-inline std::uint16_t shadow_label(std::uint32_t caster, std::size_t targets) {
-    return caster < targets ? static_cast<std::uint16_t>(caster + 1) : labels::by_seabed;
-}
 
 }  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
@@ -18095,19 +18130,22 @@ class shadow_pass {
     /// @param undecided  number of points of each tile
     template <class Occlusion, executor E>
     void test_together(const Occlusion& occlusion, const dynamic_array<std::size_t>& undecided, E& ex) {
-        dynamic_array<std::size_t> starts{0};  // of the points of each run of tiles
+        // Tiles share a list, and more of them in large pictures, so that batches stay within their number: a list has
+        // up to two.
+        const std::size_t tiles = (std::max)(run_, tiles_.count() / (shadow::max_batches / 2) + 1);
+        dynamic_array<std::size_t> starts{0};  // of the points of each list
         for (std::size_t i = 0; i < tiles_.count(); ++i) {
-            if (i % run_ == 0) starts.push_back(starts.back());
+            if (i % tiles == 0) starts.push_back(starts.back());
             starts.back() += undecided[i];
         }
         point_batch all(starts.back(), memory_of(ex));
         light_arrays light(starts.back(), memory_of(ex));
         dynamic_array<point_list> lists;
         for (std::size_t i = 0; i + 1 < starts.size(); ++i) lists.push_back({all, starts[i], starts[i + 1]});
-        bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
+        bulk_ranges(ex, tiles_.count(), tiles, [&](std::size_t first, std::size_t last) {
             shown_by_surface shown(surfaces_.size());
             for (std::size_t i = first; i < last; ++i)
-                if (undecided[i] > 0) find_points(i, shown, lists[first / run_]);
+                if (undecided[i] > 0) find_points(i, shown, lists[first / tiles]);
         });
         const auto part = [&](std::size_t i) { return light.part(starts[i], lists[i].size()); };
         dynamic_array<shadow::points> at;
@@ -18139,7 +18177,8 @@ class shadow_pass {
             if (is_facing && !(lit < 0.5f)) return;
             if (!is_facing && caster >= targets_) caster = own;
             // A point without a caster is not tested yet.
-            if (caster != shadow::invalid_id) images_.labels.shadow.pixels()[pixel] = shadow_label(caster, targets_);
+            if (caster != shadow::invalid_id)
+                images_.labels.shadow.pixels()[pixel] = labels::of_caster(caster, targets_);
         }
     }
 
@@ -18199,7 +18238,7 @@ class overhead_painter {
             if (has_bottom()) casters.push_back(as_caster(view_, bottom_in_rig_));
             const shadow::point_bounds bounds{receivers(), view_.ground_sampling(), options_.level};
             const auto occlusion =
-                options_.shadow.build(std::span<const shadow::caster>(casters), light_in_rig(view_), bounds, ex);
+                options_.shadow.build(std::span<const shadow::caster>(casters), view_.light_source(), bounds, ex);
             const auto known = decide_triangles(occlusion, ex);
             draw_all(ex);
             shadow_pass<Labels>(view_, surfaces_, {undecided_, out_.image, out_.labels}, targets_.size(), options_.tile,
@@ -18241,6 +18280,7 @@ class overhead_painter {
     template <executor E>
     void sample_seabed(E& ex) {
         const overhead& rig = view_.rig();
+        seabed::detail::require_position("overhead.position", rig.position);
         const double longer_side = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y);
         const int longer = (std::max)(rig.size.x, rig.size.y);
         const double spacing = options_.cell > 0 ? options_.cell : longer_side / ((longer + 1) / 2);
@@ -18250,7 +18290,15 @@ class overhead_painter {
         seabed::detail::require_finite(range);
         const double longest = static_cast<double>(options_.reach) * longer_side;
         ground_rect ground = shown_ground(view_, range);
-        if constexpr (casts) ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
+        if constexpr (casts) {
+            const bool is_near = view_.has_near_light();
+            const glm::dmat3 along_world_axes = glm::transpose(view_.rig_from({}).linear);
+            ground = casting_ground(
+                ground, range, shadow::radius_of(options_.shadow), longest, is_near, [&](const glm::dvec2& beside) {
+                    return numeric::product(along_world_axes,
+                                            is_near ? view_.light_position(beside) : view_.toward_light(beside));
+                });
+        }
         bottom_.sample(scene_.seabed, rig.position, ground, spacing, ex);
         const image<float>& heights = bottom_.field().heights;
         out_.stats.seabed_samples = heights.size();
@@ -18289,7 +18337,7 @@ class overhead_painter {
             s.caster = caster;
             s.instance = instance;
             s.seabed = seabed;
-            s.self_shadow_label = shadow_label(caster, targets_.size());
+            s.self_shadow_label = labels::of_caster(caster, targets_.size());
             s.whole = m;
             ids += placed.shape.triangles.size();
             require(ids < shadow::invalid_id, "triangles of the scene", ids, "below 2^32 - 1");
@@ -19118,6 +19166,89 @@ struct poisson {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/geometry/creases.hpp -------------------------------------------------------------
+// Shading normals that are smooth across gentle bends and sharp across edges.
+//
+// Based on: Grit Thuermer, Charles A. Wuethrich. Computing Vertex Normals from Polygonal Facets. Journal of Graphics
+// Tools 3(1), 1998 (the weight of a facet is its angle at the vertex).
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+inline namespace INSONIFY_FLAGS {
+
+/// The same triangles with unit normals. A corner's normal is the mean of the facets around its position that bend away
+/// from its own facet by less than `angle`; a position becomes one vertex for each distinct normal. Facets without area
+/// keep their corners, with +z as normal.
+/// @param angle  radians, 0 to pi; 0 makes every facet flat
+/// @throws invalid_input if an index has no position, or for an angle out of range
+inline mesh with_creases(const mesh& m, float angle = 0.7f) {
+    validate(m);
+    detail::require_range("angle", angle, 0, static_cast<float>(numeric::pi), "0 to pi radians");
+    const double smoothest = numeric::sin_cos(static_cast<double>(angle)).cosine;
+    const std::vector<std::uint32_t> first = weld(m.positions);
+
+    struct corner {
+        std::uint32_t position, triangle;
+        int number;
+        glm::dvec3 weighted;  // the facet's unit normal times its angle here
+    };
+    std::vector<glm::dvec3> facets(m.triangles.size(), glm::dvec3(0));
+    std::vector<corner> corners;
+    corners.reserve(3 * m.triangles.size());
+    for (std::uint32_t t = 0; t < m.triangles.size(); ++t) {
+        const glm::dvec3 p[3] = {glm::dvec3(m.positions[m.triangles[t].x]), glm::dvec3(m.positions[m.triangles[t].y]),
+                                 glm::dvec3(m.positions[m.triangles[t].z])};
+        const glm::dvec3 area = numeric::cross(p[1] - p[0], p[2] - p[0]);
+        const double length = numeric::square_root(numeric::dot(area, area));
+        if (length > 0 && numeric::is_finite(length)) facets[t] = area / length;
+        for (int i = 0; i < 3; ++i) {
+            const double turn = numeric::atan2(length, numeric::dot(p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]));
+            corners.push_back({first[m.triangles[t][i]], t, i, turn * facets[t]});
+        }
+    }
+    std::sort(corners.begin(), corners.end(), [](const corner& a, const corner& b) {
+        return a.position != b.position   ? a.position < b.position
+               : a.triangle != b.triangle ? a.triangle < b.triangle
+                                          : a.number < b.number;
+    });
+
+    mesh out;
+    out.triangles = m.triangles;
+    for (std::size_t begin = 0, end; begin < corners.size(); begin = end) {
+        for (end = begin; end < corners.size() && corners[end].position == corners[begin].position;) ++end;
+        const auto fan = out.positions.size();
+        for (std::size_t i = begin; i < end; ++i) {
+            glm::dvec3 sum(0);
+            const glm::dvec3& facet = facets[corners[i].triangle];
+            for (std::size_t j = begin; j < end && facet != glm::dvec3(0); ++j) {
+                const glm::dvec3& other = facets[corners[j].triangle];
+                if (i == j || (other != glm::dvec3(0) && numeric::dot(facet, other) > smoothest))
+                    sum += corners[j].weighted;
+            }
+            const double length = numeric::square_root(numeric::dot(sum, sum));
+            const glm::vec3 normal = length > 0 ? glm::vec3(sum / length) : glm::vec3(0, 0, 1);
+            std::size_t vertex = fan;
+            while (vertex < out.normals.size() && out.normals[vertex] != normal) ++vertex;
+            if (vertex == out.normals.size()) {
+                out.positions.push_back(m.positions[corners[begin].position]);
+                out.normals.push_back(normal);
+            }
+            out.triangles[corners[i].triangle][corners[i].number] = static_cast<std::uint32_t>(vertex);
+        }
+    }
+    return out;
+}
+
+}  // namespace INSONIFY_FLAGS
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/geometry/triangulate.hpp ---------------------------------------------------------
 // Triangulates polygons: convex ones as a fan, others by ear clipping.
 //
@@ -19553,6 +19684,13 @@ inline void require_segments(const char* name, int value, int low, int high) {
     require_range(name, value, low, high, to_text(low) + " to " + to_text(high));
 }
 
+/// Fewest segments, from 6 to 8192, of a circle whose chords are within `deviation` of it.
+inline int object_segments_for(float radius, float deviation) {
+    const int segments = segments_for(radius, deviation);
+    require(segments <= 8192, "deviation", deviation, "reachable with 8192 segments");
+    return (std::max)(segments, 6);
+}
+
 /// Appends the surface through sections with equal numbers of corners, closed at both ends. The two ends are cut into
 /// triangles by a zigzag between corner i and corner n - 1 - i: exact for convex sections, for thin shells whose second
 /// half runs back along the first, and for sections that are symmetric about their middle.
@@ -19729,85 +19867,6 @@ inline merged_compound merge(const compound& c) {
 /// @throws invalid_input as `merge` does
 inline mesh to_mesh(const compound& c) {
     return merge(c).shape;
-}
-
-}  // namespace INSONIFY_FLAGS
-
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/geometry/objects/creases.hpp -----------------------------------------------------
-// Shading normals that are smooth across gentle bends and sharp across edges.
-//
-// Based on: Grit Thuermer, Charles A. Wuethrich. Computing Vertex Normals from Polygonal Facets. Journal of Graphics
-// Tools 3(1), 1998 (the weight of a facet is its angle at the vertex).
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-
-inline namespace INSONIFY_FLAGS {
-
-/// The same triangles with unit normals. A corner's normal is the mean of the facets around its position that bend away
-/// from its own facet by less than `angle`, so a position has as many vertices as sides of it look different.
-/// Facets without area keep their corners, with +z as normal.
-/// @param angle  radians; 0 makes every facet flat
-/// @throws invalid_input if an index has no position
-inline mesh with_creases(const mesh& m, float angle = 0.7f) {
-    validate(m);
-    const double smoothest = numeric::sin_cos(static_cast<double>(angle)).cosine;
-    const std::vector<std::uint32_t> first = weld(m.positions);
-
-    struct corner {
-        std::uint32_t position, triangle;
-        int number;
-        glm::dvec3 weighted;  // the facet's unit normal times its angle here
-    };
-    std::vector<glm::dvec3> facets(m.triangles.size(), glm::dvec3(0));
-    std::vector<corner> corners;
-    corners.reserve(3 * m.triangles.size());
-    for (std::uint32_t t = 0; t < m.triangles.size(); ++t) {
-        const glm::dvec3 p[3] = {glm::dvec3(m.positions[m.triangles[t].x]), glm::dvec3(m.positions[m.triangles[t].y]),
-                                 glm::dvec3(m.positions[m.triangles[t].z])};
-        const glm::dvec3 area = numeric::cross(p[1] - p[0], p[2] - p[0]);
-        const double length = numeric::square_root(numeric::dot(area, area));
-        if (length > 0 && numeric::is_finite(length)) facets[t] = area / length;
-        for (int i = 0; i < 3; ++i) {
-            const double turn = numeric::atan2(length, numeric::dot(p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]));
-            corners.push_back({first[m.triangles[t][i]], t, i, turn * facets[t]});
-        }
-    }
-    std::sort(corners.begin(), corners.end(), [](const corner& a, const corner& b) {
-        return a.position != b.position   ? a.position < b.position
-               : a.triangle != b.triangle ? a.triangle < b.triangle
-                                          : a.number < b.number;
-    });
-
-    mesh out;
-    out.triangles = m.triangles;
-    for (std::size_t begin = 0, end; begin < corners.size(); begin = end) {
-        for (end = begin; end < corners.size() && corners[end].position == corners[begin].position;) ++end;
-        const auto fan = out.positions.size();
-        for (std::size_t i = begin; i < end; ++i) {
-            glm::dvec3 sum(0);
-            for (std::size_t j = begin; j < end; ++j)
-                if (i == j || numeric::dot(facets[corners[i].triangle], facets[corners[j].triangle]) > smoothest)
-                    sum += corners[j].weighted;
-            const double length = numeric::square_root(numeric::dot(sum, sum));
-            const glm::vec3 normal = length > 0 ? glm::vec3(sum / length) : glm::vec3(0, 0, 1);
-            std::size_t vertex = fan;
-            while (vertex < out.normals.size() && out.normals[vertex] != normal) ++vertex;
-            if (vertex == out.normals.size()) {
-                out.positions.push_back(m.positions[corners[begin].position]);
-                out.normals.push_back(normal);
-            }
-            out.triangles[corners[i].triangle][corners[i].number] = static_cast<std::uint32_t>(vertex);
-        }
-    }
-    return out;
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -21413,9 +21472,9 @@ inline mesh to_mesh(const open_pipe& p) {
 }
 
 /// Fewest segments with which the outside is nowhere farther than `deviation` from its circle.
-/// @throws invalid_input as `segments_for(radius, chord_error)`
+/// @throws invalid_input as `segments_for(radius, chord_error)`, and for deviations that need more than 8192 segments
 inline int segments_for(const open_pipe& p, float deviation) {
-    return (std::max)(segments_for(0.5f * p.diameter + p.flange, deviation), 6);
+    return detail::object_segments_for(0.5f * p.diameter + p.flange, deviation);
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -21512,9 +21571,9 @@ inline mesh to_mesh(const truncated_cone& c) {
 }
 
 /// Fewest segments with which the base is nowhere farther than `deviation` from its circle.
-/// @throws invalid_input as `segments_for(radius, chord_error)`
+/// @throws invalid_input as `segments_for(radius, chord_error)`, and for deviations that need more than 8192 segments
 inline int segments_for(const truncated_cone& c, float deviation) {
-    return (std::max)(segments_for(0.5f * c.diameter, deviation), 6);
+    return detail::object_segments_for(0.5f * c.diameter, deviation);
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -21538,10 +21597,10 @@ inline namespace INSONIFY_ABI {
 /// width, so 381 + 2 * 0.65 * 195 = 634 mm across. A lorry's 315/80 R22.5 (ISO 4209-1) is 1.076 m, 0.315 m, 0.572 m.
 struct tyre {
     float diameter = 0.634f;      ///< outside, metres
-    float width = 0.195f;         ///< metres
-    float rim_diameter = 0.381f;  ///< of the hole, metres, at most 0.95 of the diameter
-    float wall = 0.015f;          ///< thickness, metres, at most 0.45 of the width
-    float fill = 0;               ///< share of the inner height that sediment fills the hole to: 0, or 0.001 to 1
+    float width = 0.195f;         ///< metres, 0.001 to 10 diameters
+    float rim_diameter = 0.381f;  ///< of the hole, metres, 0.001 to 0.95 diameters
+    float wall = 0.015f;          ///< thickness, metres, at most 0.45 of the width and of diameter - rim_diameter
+    float fill = 0;               ///< depth of sediment in the hole over 0.95 of the inner height: 0, or 0.001 to 1
     int segments = 64;            ///< around the axis, 6 to 8192; a quarter as many across the tread
 };
 
@@ -21584,7 +21643,7 @@ inline mesh to_mesh(const tyre& t) {
     mesh body = revolve(outline, t.segments);
 
     if (t.fill > 0) {
-        // Sediment reaches into the ring, whose inside is that high a third of the way up.
+        // The sediment ends in the cavity, at 0.3 of its depth, where the cavity is higher than the sediment ever is.
         const double inner = 0.9 * (half - wall), bottom = half - inner, reach = rim + 0.3 * (ring - wall);
         const double surface = bottom + 2 * inner * static_cast<double>(t.fill);
         const std::vector<outline_point> sediment = {
@@ -21596,9 +21655,9 @@ inline mesh to_mesh(const tyre& t) {
 }
 
 /// Fewest segments with which the tread is nowhere farther than `deviation` from its circle.
-/// @throws invalid_input as `segments_for(radius, chord_error)`
+/// @throws invalid_input as `segments_for(radius, chord_error)`, and for deviations that need more than 8192 segments
 inline int segments_for(const tyre& t, float deviation) {
-    return (std::max)(segments_for(0.5f * t.diameter, deviation), 6);
+    return detail::object_segments_for(0.5f * t.diameter, deviation);
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -21846,14 +21905,14 @@ inline double distance_to_path(const glm::dvec2& p, const std::vector<glm::dvec2
 }
 
 /// Signed distance of a position from the border of an area, metres, positive inside.
-inline double inside(const disc& d, const glm::dvec2& p) {
+inline double signed_distance(const disc& d, const glm::dvec2& p) {
     const glm::dvec2 off = p - d.centre;
     return static_cast<double>(d.radius) - numeric::square_root(off.x * off.x + off.y * off.y);
 }
-inline double inside(const band& b, const glm::dvec2& p) {
+inline double signed_distance(const band& b, const glm::dvec2& p) {
     return 0.5 * static_cast<double>(b.width) - distance_to_path(p, b.path);
 }
-inline double inside(const polygon& shape, const glm::dvec2& p) {
+inline double signed_distance(const polygon& shape, const glm::dvec2& p) {
     bool odd = false;
     double square = square_distance(p, shape.corners.back(), shape.corners.front());
     for (std::size_t i = 0; i < shape.corners.size(); ++i) {
@@ -21864,7 +21923,7 @@ inline double inside(const polygon& shape, const glm::dvec2& p) {
     const double distance = numeric::square_root(square);
     return odd ? distance : -distance;
 }
-inline double inside(const stencil& s, const glm::dvec2& p) {
+inline double signed_distance(const stencil& s, const glm::dvec2& p) {
     struct place {
         int cell, next;
         double across;
@@ -21884,11 +21943,11 @@ inline double inside(const stencil& s, const glm::dvec2& p) {
 
 inline void validate(const disc& d) {
     require(d.radius >= 0 && d.radius < 1e9f, "disc.radius", d.radius, "metres, at least 0");
-    insonify::detail::require_finite("disc.centre", d.centre);
+    require_position("disc.centre", d.centre);
 }
 inline void validate_points(const std::vector<glm::dvec2>& points, const char* name, std::size_t min_count) {
     require(points.size() >= min_count, std::string(name) + ".size()", points.size(), "more points");
-    for (const glm::dvec2& p : points) insonify::detail::require_finite(name, p);
+    for (const glm::dvec2& p : points) require_position(name, p);
 }
 inline void validate(const band& b) {
     validate_points(b.path, "band.path", 1);
@@ -21916,9 +21975,9 @@ class outline {
             require_fraction("patches.coverage", p->coverage);
             // Divided by its rms slope, the noise approximates the distance to the border.
             scale_ = static_cast<float>(1 / noise_.rms_slope());
-            offset_ = p->coverage <= 0 ? -never
+            offset_ = p->coverage <= 0 ? -unbounded
                       : p->coverage >= 1
-                          ? never
+                          ? unbounded
                           : scale_ * static_cast<float>(numeric::normal_quantile(static_cast<double>(p->coverage)));
         }
         std::visit(
@@ -21938,23 +21997,23 @@ class outline {
                     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(shape)>, patches>)
                         values[i] = offset_ + scale_ * values[i];
                     else
-                        values[i] += static_cast<float>(inside(shape, {part.x[i], part.y}));
+                        values[i] += static_cast<float>(signed_distance(shape, {part.x[i], part.y}));
             },
             shape_);
     }
 
   private:
-    static constexpr float never = 1e30f;  ///< threshold above every value of the noise
+    static constexpr float unbounded = 1e30f;  ///< offset beyond every value of the noise
 
     static roughness roughness_of(const area& where, float border, float ragged) {
         require(border >= 1e-3f && border < 1e6f, "layer.border", border, "metres from 0.001");
-        require_metres("layer.ragged", ragged);
+        require(ragged >= 0 && ragged <= 1e5f, "layer.ragged", ragged, "metres, 0 to 10^5");
         if (const auto* p = std::get_if<patches>(&where)) {
             require(p->size >= border && p->size < 1e6f, "patches.size", p->size, "metres, at least layer.border");
             return {.rms = 1, .longest = p->size, .shortest = border, .exponent = 3.6f};
         }
         const float longest = (std::max)(6 * ragged, border);
-        return {.rms = ragged, .longest = longest, .shortest = (std::min)(border, longest), .exponent = 3.6f};
+        return {.rms = ragged, .longest = longest, .shortest = border, .exponent = 3.6f};
     }
 
     area shape_;
@@ -22316,7 +22375,7 @@ class border {
     border(float width, float relief) : per_metre_(1 / width), relief_(relief + 1e-6f) {}
 
     /// Progress across the border: 0 outside of the layer, 1 where it hides the ground below.
-    float across(float margin) const { return clamp01(0.5f + margin * per_metre_); }
+    float across(float margin) const { return saturate(0.5f + margin * per_metre_); }
 
     struct surface {
         float height;
@@ -22330,10 +22389,10 @@ class border {
         // Relief beyond the expected range fades.
         if (t < 0.5f) {
             const float over = rise - relief_ * (1 - 2 * t);
-            return {over > 0 ? below + over * clamp01(4 * t) : below, over > 0};
+            return {over > 0 ? below + over * saturate(4 * t) : below, over > 0};
         }
         const float over = -rise - relief_ * (2 * t - 1);
-        return {over > 0 ? layer + over * clamp01(4 - 4 * t) : layer, !(over > 0)};
+        return {over > 0 ? layer + over * saturate(4 - 4 * t) : layer, !(over > 0)};
     }
 
   private:
@@ -22422,7 +22481,7 @@ struct layer {
     any bottom = ripples{};
     area where = patches{};
     float border = 0.6f;  ///< metres, from 0.001: width of the border, about a ripple or two
-    float ragged = 0.5f;  ///< metres, >= 0: rms deviation of a shape's outline; patches ignore it
+    float ragged = 0.5f;  ///< metres, 0 to 10^5: rms deviation of a shape's outline; patches ignore it
 };
 
 /// Layers on a base, from the lowest to the highest.
@@ -22430,8 +22489,8 @@ struct layer {
 ///     mixed{.base = flat{}, .layers = {{ripples{}, patches{.coverage = 0.4f}}, {rock{}, disc{{10, 5}, 8}}}}
 struct mixed {
     any base = flat{};
-    std::vector<layer> layers;
-    std::uint64_t seed = 1;  ///< of the outlines; patches of different layers are independent
+    std::vector<layer> layers;  ///< at most 500: each takes some 5 KB of stack while a row is evaluated
+    std::uint64_t seed = 1;     ///< of the outlines; patches of different layers are independent
 
     /// The sampler owns what it needs.
     /// @throws invalid_input for parameters out of their range
@@ -22449,6 +22508,7 @@ inline namespace INSONIFY_FLAGS {
 class mixed_sampler {
   public:
     explicit mixed_sampler(const mixed& m) : base_(m.base.prepare()) {
+        detail::require(m.layers.size() <= 500, "mixed.layers.size()", m.layers.size(), "at most 500");
         float relief = m.base.sink_depth();
         for (std::uint32_t i = 0; i < m.layers.size(); ++i) {
             const layer& l = m.layers[i];
@@ -22669,7 +22729,7 @@ inline void validate(const moat& m) {
     require_positive_metres("moat.width", m.width);
     require_metres("moat.mound", m.mound);
     require_metres("moat.tail", m.tail);
-    require(numeric::is_finite(m.current), "moat.current", m.current, "a finite angle");
+    insonify::detail::require_angle("moat.current", m.current);
 }
 
 /// Upper bound of a moat's distance from the corners of its outline.
@@ -22701,11 +22761,12 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
         right = (std::max)(right, q.y);
     }
 
-    const double width = static_cast<double>(m.width), outside = -inside(polygon{m.outline}, p);
+    const double width = static_cast<double>(m.width), outside = -signed_distance(polygon{m.outline}, p);
     const glm::dvec2 at = turned(p);
     const double away = numeric::square_root(at.x * at.x + at.y * at.y);
     const double facing = away > 0 ? 0.75 - 0.25 * at.x / away : 0.75;
-    double change = -static_cast<double>(m.depth) * facing * brush(outside > 0 ? outside / width : 2 * outside / width);
+    double change =
+        -static_cast<double>(m.depth) * facing * biweight(outside > 0 ? outside / width : 2 * outside / width);
 
     if (m.tail > 0) {
         // A ridge behind the moat, as wide as the outline is across the current.
@@ -22713,7 +22774,7 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
         const double half = 0.5 * (right - left), side = std::abs(at.y - 0.5 * (left + right));
         if (along > 0 && along < 1)
             change += static_cast<double>(m.mound) * 6.75 * along * (1 - along) * (1 - along) *
-                      brush(side / (half + 0.5 * width));
+                      biweight(side / (half + 0.5 * width));
     }
     return change;
 }
@@ -22785,12 +22846,7 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// 1 up to three quarters of the way, then down to 0.
 constexpr float plateau(float r) {
-    return fade(clamp01(4 - 4 * r));
-}
-
-/// Linear interpolation; the target height at a weight of 1.
-constexpr float lerp(float height, float to, float weight) {
-    return height * (1 - weight) + to * weight;
+    return fade(saturate(4 - 4 * r));
 }
 
 inline float length(double x, double y) {
@@ -22862,7 +22918,7 @@ inline ground_rect ground_of(const moat& e) {
 
 /// The height at a position after an edit.
 inline float height_after(const raise& e, const glm::dvec2& p, float height) {
-    return height + e.height * brush(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius);
+    return height + e.height * biweight(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius);
 }
 inline float height_after(const flatten& e, const glm::dvec2& p, float height) {
     return lerp(height, e.level, plateau(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius));
@@ -22875,11 +22931,11 @@ inline float height_after(const ramp& e, const glm::dvec2& p, float height) {
     // Beyond its ends the ramp is level, and fades as at its sides.
     const double past = (t < 0 ? -t : t > 1 ? t - 1 : 0.0) * span;
     const float weight = plateau(static_cast<float>(2 * numeric::abs(side)) / e.width) *
-                         fade(clamp01(1 - 4 * static_cast<float>(past) / e.width));
-    return lerp(height, mix(e.from_height, e.to_height, clamp01(static_cast<float>(t))), weight);
+                         fade(saturate(1 - 4 * static_cast<float>(past) / e.width));
+    return lerp(height, lerp(e.from_height, e.to_height, saturate(static_cast<float>(t))), weight);
 }
 inline float height_after(const stamp& e, const glm::dvec2& p, float height) {
-    if (e.every <= 0) return height + e.height * brush(static_cast<float>(distance_to_path(p, e.path)) / e.radius);
+    if (e.every <= 0) return height + e.height * biweight(static_cast<float>(distance_to_path(p, e.path)) / e.radius);
     // The mark next to the nearest place on each leg of the path, counted along it.
     const double every = static_cast<double>(e.every);
     double before = 0, nearest = square_distance(p, e.path[0], e.path[0]);
@@ -22896,7 +22952,7 @@ inline float height_after(const stamp& e, const glm::dvec2& p, float height) {
         if (first <= last) nearest = (std::min)(nearest, square_distance(p, at, at));
         before += span;
     }
-    return height + e.height * brush(static_cast<float>(numeric::square_root(nearest)) / e.radius);
+    return height + e.height * biweight(static_cast<float>(numeric::square_root(nearest)) / e.radius);
 }
 inline float height_after(const moat& e, const glm::dvec2& p, float height) {
     return height + static_cast<float>(moat_change(e, p));
@@ -23567,13 +23623,8 @@ class penumbra_occlusion {
     /// @param beside  its offset from the disc's centre, across and up, divided by the light's distance
     static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& beside) {
         if (beside == glm::dvec2(0)) return light;
-        if (const auto* from_nearby = std::get_if<point_light>(&light)) {
-            const glm::dvec3& p = from_nearby->position;
-            const double distance = numeric::square_root(numeric::dot(p, p));
-            const double level = numeric::square_root(p.x * p.x + p.y * p.y);
-            const glm::dvec2 travel = level > 0 ? glm::dvec2(-p.x / level, -p.y / level) : glm::dvec2(1, 0);
-            return point_light{distance > 0 ? distance * toward_disc(p / distance, travel, beside) : p};
-        }
+        if (const auto* from_nearby = std::get_if<point_light>(&light))
+            return point_light{point_of_disc(from_nearby->position, beside)};
         const light_frame frame(std::get<directional_light>(light));
         const glm::dvec3 d = toward_disc(frame.to_light(), frame.travel(), beside);
         if (!(d.z > 0)) return std::nullopt;
@@ -23613,13 +23664,14 @@ class penumbra_occlusion {
 /// the one that blocks the light's centre. The disc of a point light faces the origin of the frame in which the light
 /// is described.
 struct penumbra {
-    float diameter = static_cast<float>(numeric::to_radians(0.5));  ///< of the light as seen from the ground, radians
-    int samples = 16;                                               ///< points on the disc, the first at its centre
+    float diameter =
+        static_cast<float>(numeric::to_radians(0.5));  ///< of the light seen from the ground, 0 to 1 radian
+    int samples = 16;                                  ///< points on the disc, the first at its centre; 1 to 1024
 
     /// Radius of the light over its distance.
     /// @throws invalid_input for a diameter out of range
     INSONIFY_MEMBER double light_radius() const {
-        insonify::detail::require(diameter >= 0 && diameter <= 1, "diameter", diameter, "0 to 1 radian");
+        insonify::detail::require(diameter >= 0 && diameter <= 1, "penumbra.diameter", diameter, "0 to 1 radian");
         return numeric::tan(0.5 * static_cast<double>(diameter));
     }
 
@@ -23628,7 +23680,7 @@ struct penumbra {
     template <executor E>
     INSONIFY_MEMBER penumbra_occlusion build(std::span<const caster> casters, const any_light& light,
                                              const point_bounds& bounds, E& ex) const {
-        insonify::detail::require(samples >= 1 && samples <= 1024, "samples", samples, "1 to 1024");
+        insonify::detail::require(samples >= 1 && samples <= 1024, "penumbra.samples", samples, "1 to 1024");
         return {light_radius(), samples, casters, light, bounds, ex};
     }
 };
@@ -23842,7 +23894,7 @@ inline void validate(const absorption& a) {
 inline void validate(const vertical_beam& b) {
     detail::require(b.beamwidth > 0 && numeric::is_finite(b.beamwidth), "vertical_beam.beamwidth", b.beamwidth,
                     "radians above 0");
-    detail::require_finite("vertical_beam.tilt", b.tilt);
+    detail::require_angle("vertical_beam.tilt", b.tilt);
     detail::require_not_negative("vertical_beam.side_lobes", b.side_lobes);
 }
 inline void validate(const horizontal_beam& b) {
@@ -23879,6 +23931,8 @@ concept range_part = requires(const P& p) {
 template <class P>
 concept footprint_part = requires(const P& p) {
     { p.footprint(1.0) } -> std::convertible_to<double>;
+    { p.reach(1.0) } -> std::convertible_to<double>;
+    { p.pattern(0.0, 1.0) } -> std::convertible_to<double>;
 };
 template <class P>
 concept pulse_part = requires(const P& p) {
@@ -23894,7 +23948,7 @@ concept gain_part = requires(const P& p, const flat_echo& e, double (*level)(dou
 };
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// A part of the sonar equation: one of the above, or your own type with one of their functions.
+/// A part of the sonar equation: one of the above, or your own type with the functions of one of them.
 template <class P>
 concept equation_part = detail::direction_part<P> || detail::range_part<P> || detail::footprint_part<P> ||
     detail::pulse_part<P> || detail::noise_part<P> || detail::gain_part<P>;
@@ -24198,7 +24252,7 @@ inline namespace INSONIFY_FLAGS {
 /// @param s        the seabed and its targets
 /// @param track    pings in order; row i of the result is ping i
 /// @param rig      ranges, side and ping spacing; its own track is ignored. Its altitude is nominal: the default `cell`
-///                 and the noise of ground ranges go by it
+///                 and, in ground range, the width of the horizontal beam go by it
 /// @param options  labels, backscatter law and sonar equation by type; sampling of the seabed
 /// @param ex       runs it; the result is the same bytes for any executor
 /// @throws invalid_input for a rig, a ping, a seabed, a material, a pose or an option out of range
@@ -24312,7 +24366,7 @@ class bottom_tiles {
     /// vertex.
     bottom_vertex at(double x, double y) const {
         if (is_empty_) return {std::numeric_limits<float>::quiet_NaN(), 0, 0, 0};
-        const double u = x * scale_, v = y * scale_;
+        const double u = x * scale_, v = y * scale_;  // as in tile_of: marked tiles are those looked up
         const std::int64_t cell_x = numeric::floor_to_int(u), cell_y = numeric::floor_to_int(v);
         const auto right = static_cast<float>(u - static_cast<double>(cell_x));
         const auto up = static_cast<float>(v - static_cast<double>(cell_y));
@@ -24359,8 +24413,8 @@ class bottom_tiles {
     double side() const { return cells * spacing_; }
 
     std::pair<std::int64_t, std::int64_t> tile_of(const glm::dvec2& p) const {
-        require(p.x > -1e9 && p.x < 1e9 && p.y > -1e9 && p.y < 1e9, "ping.position", p.x, "within 1e9 metres");
-        return {numeric::floor_to_int(p.x / side()), numeric::floor_to_int(p.y / side())};
+        for (const double c : {p.x, p.y}) require(c > -1e9 && c < 1e9, "ping.position", c, "within 1e9 metres");
+        return {numeric::floor_to_int(p.x * scale_) >> shift, numeric::floor_to_int(p.y * scale_) >> shift};
     }
 
     /// Clears the slots of the rectangle of tiles around all fans.
@@ -24378,7 +24432,9 @@ class bottom_tiles {
         }
         columns_ = last_x - first_x_ + 1;
         rows_ = last_y - first_y_ + 1;
-        require(columns_ * rows_ < (1 << 26), "seabed tiles", columns_ * rows_, "below 2^26: take larger cells");
+        const std::int64_t most = 1 << 26;
+        require(columns_ < most && rows_ < most && columns_ * rows_ < most, "seabed tiles",
+                static_cast<double>(columns_) * static_cast<double>(rows_), "below 2^26: take larger cells");
         slots_.assign(static_cast<std::size_t>(columns_ * rows_), absent);
     }
 
@@ -24455,17 +24511,17 @@ class bottom_tiles {
                 std::span(heights).subspan(j * width, width), std::span(types).subspan(j * width, width));
         }
         const auto scale = static_cast<float>(0.5 * scale_);
-        const auto slope = [&](float before, float after) {
-            const float rise = scale * (after - before);
-            return numeric::is_finite(rise) ? rise : 0.0f;  // next to a gap
+        const auto slope = [&](float before, float at, float after) {
+            return scale * seabed::detail::rise(before, at, after);
         };
         for (std::size_t tile = 0; tile < run.count; ++tile) {
             bottom_vertex* out = &vertices_[(run.slot + tile) * tile_size];
             for (std::size_t j = 0; j < stride; ++j) {
                 const std::size_t start = (j + 1) * width + tile * cells + 1;
                 for (std::size_t i = start; i < start + stride; ++i)
-                    *out++ = {heights[i], slope(heights[i - 1], heights[i + 1]),
-                              slope(heights[i - width], heights[i + width]), static_cast<std::uint32_t>(types[i])};
+                    *out++ = {heights[i], slope(heights[i - 1], heights[i], heights[i + 1]),
+                              slope(heights[i - width], heights[i], heights[i + width]),
+                              static_cast<std::uint32_t>(types[i])};
             }
         }
     }
@@ -25600,6 +25656,26 @@ inline double default_cell(const range_bins& window) {
                       (std::min)(picture, static_cast<double>(window.altitude) / 50));
 }
 
+/// One factor for each bin, computed anew where a ping's altitude differs from that of the last.
+class bin_factors {
+  public:
+    /// @param factor  factor(bin): at this altitude
+    template <class Factor>
+    std::span<const float> at(double altitude, int bins, const Factor& factor) {
+        if (values_.empty() || altitude != altitude_) {
+            altitude_ = altitude;
+            values_.clear();
+            for (std::size_t b = 0; b < static_cast<std::size_t>(bins); ++b)
+                values_.push_back(static_cast<float>(factor(b)));
+        }
+        return values_;
+    }
+
+  private:
+    dynamic_array<float> values_;
+    double altitude_ = 0;
+};
+
 /// A recording under construction.
 template <class Labels, class Law>
 class recorder {
@@ -25611,6 +25687,8 @@ class recorder {
         : scene_(s), track_(track), window_(window), options_(options), equation_(options.equation) {
         materials_ = checked_materials(s, options);
         for (const ping& p : track) validate(p);
+        require(equation_.pulse_length() <= window.bins * window.bin(), "pulse.length", equation_.pulse_length(),
+                "at most the metres of range that are recorded");
         out_.rows.side = window.looks;
         out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(window));
         targets_ = sliced_targets(s);
@@ -25651,11 +25729,8 @@ class recorder {
         bottom_tiles bottom(scene_.seabed, out_.stats.cell);
         const seabed::height_range relief = scene_.seabed.prepare().range();
         const double cell = out_.stats.cell;
-        dynamic_array<float> over_range;
-        if (equation_.has_ranges())
-            for (std::size_t b = 0; b < static_cast<std::size_t>(window_.bins); ++b)
-                over_range.push_back(static_cast<float>(
-                    equation_.over_range(slant_of(b, static_cast<double>(window_.altitude)), spacing())));
+        bin_factors first_losses;  // for all pings if the track is level
+        if (!track_.empty()) losses_at(track_.front(), first_losses);
         for (std::size_t start = 0; start < track_.size(); start += leg) {
             const std::size_t count = (std::min)(leg, track_.size() - start);
             dynamic_array<ping_frame> frames;
@@ -25668,18 +25743,29 @@ class recorder {
             bulk_ranges(ex, count, grain, [&](std::size_t from, std::size_t to) {
                 tracer pings(scene_, materials_, targets_, bottom, window_, options_.law, equation_, cell, relief,
                              begin);
-                for (std::size_t i = from; i < to; ++i) write(start + i, pings.trace(frames[i]), over_range);
+                bin_factors losses = first_losses;
+                for (std::size_t i = from; i < to; ++i)
+                    write(start + i, pings.trace(frames[i]), losses_at(track_[start + i], losses));
             });
         }
         out_.stats.seabed_samples = bottom.sampled();
     }
 
+    /// Factors on the power of a ping's bins by range, if any part has some. Bins of time have the same slant ranges at
+    /// any altitude.
+    std::span<const float> losses_at(const ping& p, bin_factors& losses) const {
+        if (!equation_.has_ranges()) return {};
+        const double altitude = window_.counts_time ? 0 : p.position.z;
+        return losses.at(altitude, window_.bins,
+                         [&](std::size_t b) { return equation_.over_range(slant_of(b, altitude), spacing()); });
+    }
+
     /// Writes the row of one ping.
-    void write(std::size_t number, std::span<const echo_bin> bins, std::span<const float> over_range) {
+    void write(std::size_t number, std::span<const echo_bin> bins, std::span<const float> losses) {
         const int row = static_cast<int>(number);
         const auto power = out_.image.row(row);
         for (std::size_t b = 0; b < bins.size(); ++b) power[b] = bins[b].bottom + bins[b].target;
-        for (std::size_t b = 0; b < over_range.size(); ++b) power[b] *= over_range[b];
+        for (std::size_t b = 0; b < losses.size(); ++b) power[b] *= losses[b];
         convolve_pulse(power, equation_.pulse_length() / window_.bin());
         if constexpr (labelled) {
             const auto instance = out_.labels.instance.row(row), shadow = out_.labels.shadow.row(row);
@@ -25746,16 +25832,13 @@ class recorder {
     void amplify(executor_ref ex) {
         const auto noise = static_cast<float>(equation_.noise());
         bulk_ranges(ex, track_.size(), 64, [&](std::size_t from, std::size_t to) {
-            dynamic_array<float> gain;
-            double altitude = 0;
+            bin_factors gains;
             for (std::size_t i = from; i < to; ++i) {
-                if (gain.empty() || track_[i].position.z != altitude) {
-                    altitude = track_[i].position.z;
-                    gain.clear();
-                    for (std::size_t b = 0; b < static_cast<std::size_t>(window_.bins); ++b)
-                        gain.push_back(static_cast<float>(equation_.gain(
-                            {slant_of(b, altitude), altitude, window_.bin(), spacing(), window_.counts_time})));
-                }
+                const double altitude = track_[i].position.z;
+                const auto gain = gains.at(altitude, window_.bins, [&](std::size_t b) {
+                    return equation_.gain(
+                        {slant_of(b, altitude), altitude, window_.bin(), spacing(), window_.counts_time});
+                });
                 const auto row = out_.image.row(static_cast<int>(i));
                 for (std::size_t b = 0; b < row.size(); ++b) row[b] = (row[b] + noise) * gain[b];
             }
@@ -26273,7 +26356,7 @@ inline void validate(const bottom_tone& t) {
     length("bottom_tone.streak_length", t.streak_length);
     length("bottom_tone.patch_size", t.patch_size);
     require_range("bottom_tone.octaves", t.octaves, 1, 8, "1 to 8");
-    require(numeric::is_finite(t.direction), "bottom_tone.direction", t.direction, "a finite angle");
+    require_angle("bottom_tone.direction", t.direction);
     require_range("bottom_tone.patches", t.patches, -30, 30, "-30 to 30 dB");
     require_range("bottom_tone.patch_share", t.patch_share, 0.01f, 0.99f, "0.01 to 0.99");
 }
@@ -26505,7 +26588,7 @@ inline namespace INSONIFY_ABI {
 struct occlusion_bounds {
     bounding_box box;  ///< contains all points, in the world; not empty
     double cell = 0;   ///< metres between vertices of the seabed; 0: a 512th of the box's longer side
-    double reach = 8;  ///< how far towards the light the seabed is sampled at most, in lengths of the longer side
+    double reach = 8;  ///< how far towards the light the seabed is sampled at most, along either axis, in longer sides
 };
 
 inline namespace INSONIFY_FLAGS {
@@ -26513,7 +26596,7 @@ inline namespace INSONIFY_FLAGS {
 /// The light of a rig, in the world.
 inline shadow::any_light light_of(const overhead& rig) {
     const overhead_geometry view(rig);
-    shadow::any_light light = detail::light_in_rig(view);
+    shadow::any_light light = view.light_source();
     if (auto* parallel = std::get_if<shadow::directional_light>(&light)) {
         parallel->azimuth += numeric::widened(rig.yaw);
     } else {
@@ -26566,7 +26649,7 @@ class scene_occlusion {
             built_.test(shadow::points{x, y, z, none, none},
                         shadow::results{std::span(all.lit).subspan(first, count), caster});
             for (std::size_t i = 0; i < count; ++i)
-                if (caster[i] != shadow::invalid_id) all.shadow[first + i] = detail::shadow_label(caster[i], targets_);
+                if (caster[i] != shadow::invalid_id) all.shadow[first + i] = labels::of_caster(caster[i], targets_);
         });
         return all;
     }
@@ -26627,40 +26710,31 @@ class scene_occlusion {
         detail::dynamic_array<placed> all;
         for (const target& t : s.targets) all.push_back({t.shape, around_centre(to_world(t.placement))});
         if (s.seabed.empty()) return all;
-        seabed::detail::require_finite(s.seabed.prepare().range());
-        const detail::ground_rect ground = casting_ground(s, light, within, radius);
-        seabed::grid grid = seabed::grid_over(ground.lower, ground.upper, cell_of(within));
+        const seabed::height_range range = s.seabed.prepare().range();
+        seabed::detail::require_finite(range);
+        const detail::ground_rect ground = casting_ground(from_centre(light), within, range.highest, radius);
+        const glm::dvec2 centre(centre_);
+        seabed::grid grid = seabed::grid_over(ground.lower + centre, ground.upper + centre, cell_of(within));
         grid.band_limited = true;
         const seabed::heightfield field = seabed::sample(s.seabed, grid, ex);
         all.push_back({seabed::tessellate(field, ex), around_centre({glm::dmat3(1), glm::dvec3(field.origin, 0)})});
         return all;
     }
 
-    /// The ground below the box, and towards the light as far as the seabed may reach into a ray.
-    static detail::ground_rect casting_ground(const scene& s, const shadow::any_light& light,
-                                              const occlusion_bounds& within, double radius) {
-        const glm::dvec2 lower(within.box.lower), upper(within.box.upper);
-        detail::ground_rect ground{lower - cell_of(within), upper + cell_of(within)};
-        const double longest = within.reach * longer_side(within);
-        const double highest = s.seabed.prepare().range().highest, rise = highest - within.box.lower.z;
-        if (!(rise > 0)) return ground;
-        for (int corner = 0; corner < 4; ++corner) {
-            const glm::dvec2 from((corner & 1) != 0 ? upper.x : lower.x, (corner & 2) != 0 ? upper.y : lower.y);
-            glm::dvec2 way;
-            if (const auto* from_nearby = std::get_if<shadow::point_light>(&light)) {
-                const double up = from_nearby->position.z - within.box.lower.z;
-                way = (up > rise ? rise / up : 1.0) * (glm::dvec2(from_nearby->position) - from);
-            } else {
-                const shadow::light_frame frame(std::get<shadow::directional_light>(light));
-                way = -rise * frame.cot_elevation() * frame.travel();
-            }
-            // Rays from the rim of an extended light start farther away and to the side.
-            const double length = numeric::square_root(way.x * way.x + way.y * way.y);
-            const double wider = length + radius * (length * length / rise + rise);
-            const double aside = (std::min)(longest, wider) - (std::min)(longest, length);
-            ground.include(from + (length > longest ? longest / length : 1.0) * way, aside);
-        }
-        return ground;
+    /// The ground below the box, and towards the light as far as the seabed may reach into a ray, around the centre.
+    detail::ground_rect casting_ground(const shadow::any_light& light, const occlusion_bounds& within, double highest,
+                                       double radius) const {
+        const glm::dvec2 lower = glm::dvec2(within.box.lower) - glm::dvec2(centre_) - cell_of(within),
+                         upper = glm::dvec2(within.box.upper) - glm::dvec2(centre_) + cell_of(within);
+        const auto* const from_nearby = std::get_if<shadow::point_light>(&light);
+        return detail::casting_ground({lower, upper}, {within.box.lower.z, highest}, radius,
+                                      within.reach * longer_side(within), from_nearby != nullptr,
+                                      [&](const glm::dvec2& beside) {
+                                          if (from_nearby != nullptr)
+                                              return shadow::point_of_disc(from_nearby->position, beside);
+                                          const shadow::light_frame frame(std::get<shadow::directional_light>(light));
+                                          return shadow::toward_disc(frame.to_light(), frame.travel(), beside);
+                                      });
     }
 
     glm::dvec3 centre_;
@@ -27151,19 +27225,23 @@ INSONIFY_SEABEDS(INSONIFY_SEABED)
 
 }  // namespace seabed::inline INSONIFY_ONCE
 
-inline namespace INSONIFY_ONCE {
+namespace detail {
 
 using matched_speckle = filter_chain<match_histogram, speckle>;
 using matched_gaussian = filter_chain<match_histogram, gaussian>;
 using equalized_speckle = filter_chain<equalize, speckle>;
 using displayed_looks = filter_chain<gamma_speckle, display>;
 
+}  // namespace detail
+
+inline namespace INSONIFY_ONCE {
+
 // Filters of what `render` draws. Others are compiled where they are used.
-#define INSONIFY_FILTERS(each)                                                                                       \
-    each(float, equalize) each(float, match_histogram) each(float, match_binned) each(float, gaussian)               \
-        each(float, speckle) each(float, salt_and_pepper) each(float, matched_speckle) each(float, matched_gaussian) \
-            each(float, equalized_speckle) each(float, gamma_speckle) each(float, display)                           \
-                each(float, displayed_looks) each(rgb8, color_table)
+#define INSONIFY_FILTERS(each)                                                                                      \
+    each(float, equalize) each(float, match_histogram) each(float, match_binned) each(float, gaussian)              \
+        each(float, speckle) each(float, salt_and_pepper) each(float, detail::matched_speckle)                      \
+            each(float, detail::matched_gaussian) each(float, detail::equalized_speckle) each(float, gamma_speckle) \
+                each(float, display) each(float, detail::displayed_looks) each(rgb8, color_table)
 #define INSONIFY_FILTER(Result, Filter)                               \
     image<Result> operator|(const image<float>& in, const Filter& f); \
     image<Result> operator|(image<float>&& in, const Filter& f);

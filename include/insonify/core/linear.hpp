@@ -34,7 +34,7 @@ INSONIFY_INLINE glm::vec<3, T> product(const glm::mat<3, 3, T>& m, const glm::ve
             m[0].z * v.x + m[1].z * v.y + m[2].z * v.z};
 }
 
-/// The same for three coordinates that may be SIMD lanes.
+/// The same for three coordinates that may be SIMD lanes; `into` and `v` must not overlap.
 template <class Floats>
 INSONIFY_INLINE void product(Floats* into, const glm::mat3& m, const Floats* v) {
     into[0] = m[0].x * v[0] + m[1].x * v[1] + m[2].x * v[2];

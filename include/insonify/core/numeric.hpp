@@ -164,7 +164,7 @@ inline sine_cosine sin_cos_turns(double x) {
     }
 }
 
-/// Sine and cosine of an angle in radians; the reduction adds |x| * 2e-16 of absolute error.
+/// Sine and cosine of an angle in radians, |x| < 2^50; the reduction adds |x| * 2e-16 of absolute error.
 inline sine_cosine sin_cos(double radians) {
     return sin_cos_turns(radians * (0.5 * std::numbers::inv_pi));
 }
@@ -235,6 +235,12 @@ void require_range(std::string_view argument, Number value, std::type_identity_t
 template <std::floating_point Number>
 void require_fraction(std::string_view argument, Number value) {
     require_range(argument, value, 0, 1, "0 to 1");
+}
+
+/// Refuses angles that are so many turns that sin_cos has no precision left for what remains of them.
+template <std::floating_point Number>
+void require_angle(std::string_view argument, Number value) {
+    require_range(argument, value, Number(-1e6), Number(1e6), "finite radians, within 10^6 of 0");
 }
 
 /// Calls `validate(value)` if the type has one.

@@ -17,7 +17,8 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-inline void check_shape(const char* name, const parameter& shape) {
+/// Checks the shape of a gamma distribution.
+inline void require_gamma_shape(const char* name, const parameter& shape) {
     shape.check(
         name, [](float v) { return v >= 0.01f && v <= 1e6f; }, "0.01 to 1e6");
 }
@@ -54,7 +55,7 @@ struct gamma_speckle {
     /// @throws invalid_input for looks outside 0.01 to 1e6, a correlation length outside 0 to 16, or correlation with
     ///         looks other than one whole number from 1 to 64; on application, for a map of another size than the image
     INSONIFY_TAGGED auto pass() const {
-        detail::check_shape("gamma_speckle.looks", looks);
+        detail::require_gamma_shape("gamma_speckle.looks", looks);
         detail::require_correlation("gamma_speckle.correlation", correlation);
         return detail::echo_pass<detail::echo_draw::gamma>(detail::noise_stream::gamma_speckle, seed, frame,
                                                            {"gamma_speckle.looks", looks}, of, correlation);
@@ -62,7 +63,8 @@ struct gamma_speckle {
 };
 
 /// The K-distribution: speckle whose mean intensity is itself gamma-distributed from pixel to pixel. For one look,
-/// variance / mean^2 of the intensity is 1 + 2 / shape. Typical shapes: rock 0.5 to 2, gravel 2 to 4, sand 8 to 20.
+/// variance / mean^2 of the intensity is 1 + 2 / shape. Illustrative shapes: rock 0.5 to 2,
+/// gravel 2 to 4, sand 8 to 20.
 struct k_speckle {
     parameter shape = 4;  ///< of the mean, 0.01 to 1e6
     float looks = 1;      ///< 0.01 to 1e6
@@ -79,8 +81,8 @@ struct k_speckle {
     ///         correlation with looks other than a whole number from 1 to 64; on application, for a map of another size
     ///         than the image
     INSONIFY_TAGGED auto pass() const {
-        detail::check_shape("k_speckle.shape", shape);
-        detail::check_shape("k_speckle.looks", looks);
+        detail::require_gamma_shape("k_speckle.shape", shape);
+        detail::require_gamma_shape("k_speckle.looks", looks);
         detail::require_correlation("k_speckle.correlation", correlation);
         return detail::echo_pass<detail::echo_draw::by_looks>(detail::noise_stream::k_speckle, seed, frame,
                                                               {"k_speckle.shape", looks, shape}, of, correlation);
@@ -92,7 +94,7 @@ struct k_speckle {
 struct rician {
     parameter steady = 1;  ///< power of the steady echo over that of the others, 0 to 1e6; 0 is Rayleigh
     echo of = echo::amplitude;
-    /// With a map, the length is that of the other echoes, and up to 1.4 times as long for the sum.
+    /// With a map of `steady`, the length of the other echoes' intensity; that of the sum is up to 1.4 times as long.
     correlation_length correlation{};
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;  ///< which image of a set

@@ -39,11 +39,11 @@ struct to_gray {
     struct weighted_sum {
         gray_weights weights;
         template <pixel_code Channel>
-        Channel operator()(const rgb<Channel>& color) const {
+        INSONIFY_MEMBER Channel operator()(const rgb<Channel>& color) const {
             return static_cast<Channel>(weights.r * color.r + weights.g * color.g + weights.b * color.b + 0.5);
         }
         template <std::same_as<float> Channel>
-        Channel operator()(const rgb<Channel>& color) const {
+        INSONIFY_MEMBER Channel operator()(const rgb<Channel>& color) const {
             const double r = static_cast<double>(color.r), g = static_cast<double>(color.g),
                          b = static_cast<double>(color.b);
             return static_cast<Channel>(weights.r * r + weights.g * g + weights.b * b);

@@ -1,4 +1,4 @@
-// Histograms with bins of equal width, and two filters of MATLAB's: histogram equalization and matching.
+// Histograms over equidistant levels, and two filters of MATLAB's: histogram equalization and matching.
 //
 // NaN is not counted and stays NaN. By MATLAB's rule, a constant image becomes the level at which the cumulative share
 // of the target histogram reaches one half, or its highest occupied level if the image is at level 0 or the last level.
@@ -112,7 +112,7 @@ class match_binned {
 
     /// @throws invalid_input for an empty histogram, or bins outside 2 to 65536
     INSONIFY_MEMBER explicit match_binned(histogram wanted) : wanted_(std::move(wanted)) {
-        detail::require(wanted_.counts.size() >= 2 && wanted_.counts.size() <= 65536, "wanted.counts.size()",
+        detail::require(wanted_.counts.size() >= 2 && wanted_.counts.size() <= 65536, "number of bins of match_binned",
                         wanted_.counts.size(), "2 to 65536");
         detail::require(wanted_.total() > 0, "number of pixels in the reference", wanted_.total(), "at least 1");
     }

@@ -43,7 +43,7 @@ struct ground_rect {
     glm::dvec2 lower{std::numeric_limits<double>::infinity()};
     glm::dvec2 upper{-std::numeric_limits<double>::infinity()};
 
-    /// Extends the rectangle to all positions within a margin of another along either axis.
+    /// Extends the rectangle by the square of half-width `margin` around a position.
     void include(const glm::dvec2& p, double margin = 0) {
         lower = {(std::min)(lower.x, p.x - margin), (std::min)(lower.y, p.y - margin)};
         upper = {(std::max)(upper.x, p.x + margin), (std::max)(upper.y, p.y + margin)};

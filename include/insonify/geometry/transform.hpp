@@ -93,13 +93,14 @@ inline affine inverse(const affine& map) {
 }
 
 /// From the object's frame to the world's: R = Rz(yaw) Ry(pitch) Rx(roll), p -> scale R p + position - (0, 0, burial).
-/// @throws invalid_input for a value that is not finite, or a scale that is not positive (mirror with an `affine`)
+/// @throws invalid_input for a value that is not finite, an angle beyond 10^6 radians, or a scale that is not positive
+/// (mirror with an `affine`)
 inline affine to_world(const pose& p) {
     using detail::require_finite;
     require_finite("pose.position", p.position);
-    require_finite("pose.yaw", p.yaw);
-    require_finite("pose.pitch", p.pitch);
-    require_finite("pose.roll", p.roll);
+    detail::require_angle("pose.yaw", p.yaw);
+    detail::require_angle("pose.pitch", p.pitch);
+    detail::require_angle("pose.roll", p.roll);
     require_finite("pose.burial", p.burial);
     detail::require_positive("pose.scale", p.scale);
 

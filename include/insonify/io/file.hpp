@@ -75,7 +75,8 @@ inline std::string read_file(const std::string& path) {
 }
 
 /// A temporary file beside the one that it will replace. `commit` syncs it to disk and renames it; without a commit it
-/// is removed and the old file stays. A symbolic link is replaced, not followed.
+/// is removed and the old file stays. A symbolic link is replaced, not followed. The file is a new one: it has the
+/// process's default mode and owner, and other hard links keep the old content.
 ///
 /// The temporary name is the path with the first free suffix of .tmp0, .tmp1, ..., so that concurrent writers of one
 /// path do not collide; the last to commit wins.

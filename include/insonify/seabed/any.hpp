@@ -59,11 +59,13 @@ struct model_interface {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Erases the type of a sampler. The call goes through a function pointer because compilers drop unused virtual
-/// functions late: programs would pay for seabeds that they don't use.
+/// Erases the type of a sampler. An `any_sampler` is returned as it is: it owns what it refers to. The call goes
+/// through a function pointer because compilers drop unused virtual functions late: programs would pay for seabeds that
+/// they don't use.
 /// @param owner  kept alive for as long as the sampler, which may refer to it
 template <typed_sampler S>
 any_sampler hold_sampler(S sampler, std::shared_ptr<const void> owner = nullptr) {
+    if constexpr (std::same_as<S, any_sampler>) return sampler;
     struct held {
         S sampler;
         std::shared_ptr<const void> owner;

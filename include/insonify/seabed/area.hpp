@@ -2,7 +2,6 @@
 #pragma once
 
 #include <insonify/core/image.hpp>
-#include <insonify/geometry/transform.hpp>
 #include <insonify/seabed/detail/noise.hpp>
 
 #include <variant>
@@ -75,14 +74,14 @@ inline double distance_to_path(const glm::dvec2& p, const std::vector<glm::dvec2
 }
 
 /// Signed distance of a position from the border of an area, metres, positive inside.
-inline double inside(const disc& d, const glm::dvec2& p) {
+inline double signed_distance(const disc& d, const glm::dvec2& p) {
     const glm::dvec2 off = p - d.centre;
     return static_cast<double>(d.radius) - numeric::square_root(off.x * off.x + off.y * off.y);
 }
-inline double inside(const band& b, const glm::dvec2& p) {
+inline double signed_distance(const band& b, const glm::dvec2& p) {
     return 0.5 * static_cast<double>(b.width) - distance_to_path(p, b.path);
 }
-inline double inside(const polygon& shape, const glm::dvec2& p) {
+inline double signed_distance(const polygon& shape, const glm::dvec2& p) {
     bool odd = false;
     double square = square_distance(p, shape.corners.back(), shape.corners.front());
     for (std::size_t i = 0; i < shape.corners.size(); ++i) {
@@ -93,7 +92,7 @@ inline double inside(const polygon& shape, const glm::dvec2& p) {
     const double distance = numeric::square_root(square);
     return odd ? distance : -distance;
 }
-inline double inside(const stencil& s, const glm::dvec2& p) {
+inline double signed_distance(const stencil& s, const glm::dvec2& p) {
     struct place {
         int cell, next;
         double across;
@@ -113,11 +112,11 @@ inline double inside(const stencil& s, const glm::dvec2& p) {
 
 inline void validate(const disc& d) {
     require(d.radius >= 0 && d.radius < 1e9f, "disc.radius", d.radius, "metres, at least 0");
-    insonify::detail::require_finite("disc.centre", d.centre);
+    require_position("disc.centre", d.centre);
 }
 inline void validate_points(const std::vector<glm::dvec2>& points, const char* name, std::size_t min_count) {
     require(points.size() >= min_count, std::string(name) + ".size()", points.size(), "more points");
-    for (const glm::dvec2& p : points) insonify::detail::require_finite(name, p);
+    for (const glm::dvec2& p : points) require_position(name, p);
 }
 inline void validate(const band& b) {
     validate_points(b.path, "band.path", 1);
@@ -145,9 +144,9 @@ class outline {
             require_fraction("patches.coverage", p->coverage);
             // Divided by its rms slope, the noise approximates the distance to the border.
             scale_ = static_cast<float>(1 / noise_.rms_slope());
-            offset_ = p->coverage <= 0 ? -never
+            offset_ = p->coverage <= 0 ? -unbounded
                       : p->coverage >= 1
-                          ? never
+                          ? unbounded
                           : scale_ * static_cast<float>(numeric::normal_quantile(static_cast<double>(p->coverage)));
         }
         std::visit(
@@ -167,23 +166,23 @@ class outline {
                     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(shape)>, patches>)
                         values[i] = offset_ + scale_ * values[i];
                     else
-                        values[i] += static_cast<float>(inside(shape, {part.x[i], part.y}));
+                        values[i] += static_cast<float>(signed_distance(shape, {part.x[i], part.y}));
             },
             shape_);
     }
 
   private:
-    static constexpr float never = 1e30f;  ///< threshold above every value of the noise
+    static constexpr float unbounded = 1e30f;  ///< offset beyond every value of the noise
 
     static roughness roughness_of(const area& where, float border, float ragged) {
         require(border >= 1e-3f && border < 1e6f, "layer.border", border, "metres from 0.001");
-        require_metres("layer.ragged", ragged);
+        require(ragged >= 0 && ragged <= 1e5f, "layer.ragged", ragged, "metres, 0 to 10^5");
         if (const auto* p = std::get_if<patches>(&where)) {
             require(p->size >= border && p->size < 1e6f, "patches.size", p->size, "metres, at least layer.border");
             return {.rms = 1, .longest = p->size, .shortest = border, .exponent = 3.6f};
         }
         const float longest = (std::max)(6 * ragged, border);
-        return {.rms = ragged, .longest = longest, .shortest = (std::min)(border, longest), .exponent = 3.6f};
+        return {.rms = ragged, .longest = longest, .shortest = border, .exponent = 3.6f};
     }
 
     area shape_;

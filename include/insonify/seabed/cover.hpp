@@ -23,7 +23,7 @@ class border {
     border(float width, float relief) : per_metre_(1 / width), relief_(relief + 1e-6f) {}
 
     /// Progress across the border: 0 outside of the layer, 1 where it hides the ground below.
-    float across(float margin) const { return clamp01(0.5f + margin * per_metre_); }
+    float across(float margin) const { return saturate(0.5f + margin * per_metre_); }
 
     struct surface {
         float height;
@@ -37,10 +37,10 @@ class border {
         // Relief beyond the expected range fades.
         if (t < 0.5f) {
             const float over = rise - relief_ * (1 - 2 * t);
-            return {over > 0 ? below + over * clamp01(4 * t) : below, over > 0};
+            return {over > 0 ? below + over * saturate(4 * t) : below, over > 0};
         }
         const float over = -rise - relief_ * (2 * t - 1);
-        return {over > 0 ? layer + over * clamp01(4 - 4 * t) : layer, !(over > 0)};
+        return {over > 0 ? layer + over * saturate(4 - 4 * t) : layer, !(over > 0)};
     }
 
   private:

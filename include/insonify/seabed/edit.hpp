@@ -63,12 +63,7 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// 1 up to three quarters of the way, then down to 0.
 constexpr float plateau(float r) {
-    return fade(clamp01(4 - 4 * r));
-}
-
-/// Linear interpolation; the target height at a weight of 1.
-constexpr float lerp(float height, float to, float weight) {
-    return height * (1 - weight) + to * weight;
+    return fade(saturate(4 - 4 * r));
 }
 
 inline float length(double x, double y) {
@@ -140,7 +135,7 @@ inline ground_rect ground_of(const moat& e) {
 
 /// The height at a position after an edit.
 inline float height_after(const raise& e, const glm::dvec2& p, float height) {
-    return height + e.height * brush(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius);
+    return height + e.height * biweight(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius);
 }
 inline float height_after(const flatten& e, const glm::dvec2& p, float height) {
     return lerp(height, e.level, plateau(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius));
@@ -153,11 +148,11 @@ inline float height_after(const ramp& e, const glm::dvec2& p, float height) {
     // Beyond its ends the ramp is level, and fades as at its sides.
     const double past = (t < 0 ? -t : t > 1 ? t - 1 : 0.0) * span;
     const float weight = plateau(static_cast<float>(2 * numeric::abs(side)) / e.width) *
-                         fade(clamp01(1 - 4 * static_cast<float>(past) / e.width));
-    return lerp(height, mix(e.from_height, e.to_height, clamp01(static_cast<float>(t))), weight);
+                         fade(saturate(1 - 4 * static_cast<float>(past) / e.width));
+    return lerp(height, lerp(e.from_height, e.to_height, saturate(static_cast<float>(t))), weight);
 }
 inline float height_after(const stamp& e, const glm::dvec2& p, float height) {
-    if (e.every <= 0) return height + e.height * brush(static_cast<float>(distance_to_path(p, e.path)) / e.radius);
+    if (e.every <= 0) return height + e.height * biweight(static_cast<float>(distance_to_path(p, e.path)) / e.radius);
     // The mark next to the nearest place on each leg of the path, counted along it.
     const double every = static_cast<double>(e.every);
     double before = 0, nearest = square_distance(p, e.path[0], e.path[0]);
@@ -174,7 +169,7 @@ inline float height_after(const stamp& e, const glm::dvec2& p, float height) {
         if (first <= last) nearest = (std::min)(nearest, square_distance(p, at, at));
         before += span;
     }
-    return height + e.height * brush(static_cast<float>(numeric::square_root(nearest)) / e.radius);
+    return height + e.height * biweight(static_cast<float>(numeric::square_root(nearest)) / e.radius);
 }
 inline float height_after(const moat& e, const glm::dvec2& p, float height) {
     return height + static_cast<float>(moat_change(e, p));

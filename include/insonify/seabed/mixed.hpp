@@ -23,7 +23,7 @@ struct layer {
     any bottom = ripples{};
     area where = patches{};
     float border = 0.6f;  ///< metres, from 0.001: width of the border, about a ripple or two
-    float ragged = 0.5f;  ///< metres, >= 0: rms deviation of a shape's outline; patches ignore it
+    float ragged = 0.5f;  ///< metres, 0 to 10^5: rms deviation of a shape's outline; patches ignore it
 };
 
 /// Layers on a base, from the lowest to the highest.
@@ -31,8 +31,8 @@ struct layer {
 ///     mixed{.base = flat{}, .layers = {{ripples{}, patches{.coverage = 0.4f}}, {rock{}, disc{{10, 5}, 8}}}}
 struct mixed {
     any base = flat{};
-    std::vector<layer> layers;
-    std::uint64_t seed = 1;  ///< of the outlines; patches of different layers are independent
+    std::vector<layer> layers;  ///< at most 500: each takes some 5 KB of stack while a row is evaluated
+    std::uint64_t seed = 1;     ///< of the outlines; patches of different layers are independent
 
     /// The sampler owns what it needs.
     /// @throws invalid_input for parameters out of their range
@@ -50,6 +50,7 @@ inline namespace INSONIFY_FLAGS {
 class mixed_sampler {
   public:
     explicit mixed_sampler(const mixed& m) : base_(m.base.prepare()) {
+        detail::require(m.layers.size() <= 500, "mixed.layers.size()", m.layers.size(), "at most 500");
         float relief = m.base.sink_depth();
         for (std::uint32_t i = 0; i < m.layers.size(); ++i) {
             const layer& l = m.layers[i];

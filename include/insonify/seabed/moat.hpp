@@ -40,7 +40,7 @@ inline void validate(const moat& m) {
     require_positive_metres("moat.width", m.width);
     require_metres("moat.mound", m.mound);
     require_metres("moat.tail", m.tail);
-    require(numeric::is_finite(m.current), "moat.current", m.current, "a finite angle");
+    insonify::detail::require_angle("moat.current", m.current);
 }
 
 /// Upper bound of a moat's distance from the corners of its outline.
@@ -72,11 +72,12 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
         right = (std::max)(right, q.y);
     }
 
-    const double width = static_cast<double>(m.width), outside = -inside(polygon{m.outline}, p);
+    const double width = static_cast<double>(m.width), outside = -signed_distance(polygon{m.outline}, p);
     const glm::dvec2 at = turned(p);
     const double away = numeric::square_root(at.x * at.x + at.y * at.y);
     const double facing = away > 0 ? 0.75 - 0.25 * at.x / away : 0.75;
-    double change = -static_cast<double>(m.depth) * facing * brush(outside > 0 ? outside / width : 2 * outside / width);
+    double change =
+        -static_cast<double>(m.depth) * facing * biweight(outside > 0 ? outside / width : 2 * outside / width);
 
     if (m.tail > 0) {
         // A ridge behind the moat, as wide as the outline is across the current.
@@ -84,7 +85,7 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
         const double half = 0.5 * (right - left), side = std::abs(at.y - 0.5 * (left + right));
         if (along > 0 && along < 1)
             change += static_cast<double>(m.mound) * 6.75 * along * (1 - along) * (1 - along) *
-                      brush(side / (half + 0.5 * width));
+                      biweight(side / (half + 0.5 * width));
     }
     return change;
 }

@@ -206,10 +206,10 @@ inline namespace INSONIFY_FLAGS {
 template <model M>
 auto prepare(const M& m) {
     using sampler_type = decltype(detail::sampler_of(m));
-    if constexpr (single_typed<M> && sampler<sampler_type>)
-        return detail::with_kind<sampler_type>{detail::sampler_of(m), label_of(m.kind)};
-    else
+    if constexpr (typed_sampler<sampler_type>)
         return detail::sampler_of(m);
+    else
+        return detail::with_kind<sampler_type>{detail::sampler_of(m), label_of(m.kind)};
 }
 
 /// The label of the whole seabed, if it has only one.

@@ -15,7 +15,7 @@ namespace seabed {
 struct none {
     static constexpr type kind = type::sand;
 
-    /// Never evaluated: an empty seabed has no heights.
+    /// Makes this a model; `any` never evaluates it.
     struct sampler {
         void row(const scanline&, std::span<float> heights) const {
             std::fill(heights.begin(), heights.end(), std::numeric_limits<float>::quiet_NaN());

@@ -7,6 +7,7 @@
 #include <insonify/core/executor.hpp>
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/lanes.hpp>
+#include <insonify/seabed/detail/rise.hpp>
 #include <insonify/seabed/heightfield.hpp>
 
 #include <glm/vec3.hpp>
@@ -77,15 +78,6 @@ class row_normals {
         const float dy = rise(back_[i], here_[i], ahead_[i], inner_);
         const float inverse = 1 / numeric::square_root(dx * dx + dy * dy + z_ * z_);
         out_[i] = {(0.0f - dx) * inverse, (0.0f - dy) * inverse, z_ * inverse};
-    }
-
-    /// Twice the rise per cell, by central differences. Beside an edge or a missing neighbour the one-sided difference
-    /// is doubled; it is 0 at a vertex without data.
-    static float rise(float before, float at, float after, bool both) {
-        if (!numeric::is_finite(at)) return 0;
-        const bool has_before = numeric::is_finite(before), has_after = numeric::is_finite(after);
-        if (has_before && has_after) return both ? after - before : 2 * (after - before);
-        return has_after ? 2 * (after - at) : has_before ? 2 * (at - before) : 0.0f;
     }
 
     std::size_t width_;

@@ -1,9 +1,10 @@
-// Labels of the sea floor: the registry of the library's, and the properties of a label.
+// Registry of the labels of the sea floor and their properties.
 //
 // A label is one byte, stored in data sets. To add a type of relief, write its model in a file of its own and a row at
 // the end of INSONIFY_RELIEF_TYPES; to add a sediment, write a row at the end of INSONIFY_SEDIMENTS. The enumerations,
 // names in manifests, defaults of scenes and defaults of speckle are made from the rows. Labels number the rows in
-// order; `own_type(0)` and above are free for users' seabeds, which state their properties (see model.hpp).
+// order, so a new type of relief renumbers the sediments: manifests name the labels of their data set. `own_type(0)`
+// and above are free for users' seabeds, which state their properties (see model.hpp).
 #pragma once
 
 #include <insonify/core/error.hpp>
@@ -129,7 +130,8 @@ struct sediment_facts {
     float steady;    ///< power of a steady echo over that of the diffuse ones
     sediment_form form{};
 
-    /// Root mean square height of what is shorter than a metre, metres: 2 pi w2 K^-1.25 / 1.25 at K = 2 pi / 100 cm.
+    /// Root mean square height of what is shorter than a metre, metres. Its square is 2 pi w2 K^-1.25 / 1.25, cm^2, at
+    /// K = 2 pi / 100 cm.
     INSONIFY_MEMBER float rms() const { return 0.12641f * numeric::square_root(strength); }
     /// The backscattering strength at normal incidence by Lambert's law, as a factor.
     INSONIFY_MEMBER constexpr float strength_at_nadir() const {
@@ -140,7 +142,7 @@ struct sediment_facts {
 #define INSONIFY_PROPERTIES(label, ...) {type::label, __VA_ARGS__},
 #define INSONIFY_SEDIMENT(label, ...) label = static_cast<int>(type::label),
 
-/// Sediments by name, from the coarsest to the finest: each has the value of its label.
+/// Sediments by name; each has the value of its label.
 enum class sediment : std::uint8_t { INSONIFY_SEDIMENTS(INSONIFY_SEDIMENT) };
 
 /// The rows of types of relief.
@@ -161,8 +163,12 @@ constexpr type type_of(sediment s) {
 }
 
 /// The row of a sediment.
+/// @throws invalid_input for a value that is no enumerator
 constexpr const sediment_facts& facts_of(sediment s) {
-    return sediments[static_cast<std::size_t>(s) - std::size(relief_types)];
+    const std::size_t row = static_cast<std::size_t>(s) - std::size(relief_types);
+    if (row >= std::size(sediments))
+        insonify::detail::refuse("sediment", static_cast<int>(s), "an enumerator of seabed::sediment");
+    return sediments[row];
 }
 
 }  // namespace INSONIFY_FLAGS

@@ -13,7 +13,7 @@ namespace seabed {
 ///
 /// Crests fork 2 pi spread bandwidth / wavelength^2 times per square metre.
 struct ripple_system {
-    float wavelength = 0.8f;  ///< metres, > 0: from crest to crest
+    float wavelength = 0.8f;  ///< metres, 0.0001 to 10^6: from crest to crest
     float steepness = 0.11f;  ///< in [0, 0.5]: height from trough to crest, over the wavelength
     float direction = 0;      ///< radians from +x: where the wave vector points, across the crests
     float spread = 0.09f;     ///< radians, in [0, 0.5]: standard deviation of the direction; forks grow with it

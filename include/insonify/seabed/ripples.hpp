@@ -18,13 +18,13 @@ namespace seabed {
 
 /// Rippled sand. The first six parameters are those of `ripple_system`.
 struct ripples {
-    float wavelength = 0.8f;                             ///< metres, > 0: from crest to crest; nature has 0.05 to 1.5
-    float steepness = 0.11f;                             ///< in [0, 0.5]: height / wavelength; nature has 0.05 to 0.2
-    float direction = 0;                                 ///< radians from +x: across the crests
-    float spread = 0.09f;                                ///< radians, in [0, 0.5]: of the direction
-    float bandwidth = 0.09f;                             ///< in [0, 0.25]: of the wave number, relative
-    float sharpness = 0.25f;                             ///< in [0, 0.9]: of the crests, 0 for a sinusoid
-    ripple_system second{.steepness = 0};                ///< other waves' ripples, added; none if they have no height
+    float wavelength = 0.8f;               ///< metres, 0.0001 to 10^6: from crest to crest; nature has 0.05 to 1.5
+    float steepness = 0.11f;               ///< in [0, 0.5]: height / wavelength; nature has 0.05 to 0.2
+    float direction = 0;                   ///< radians from +x: across the crests
+    float spread = 0.09f;                  ///< radians, in [0, 0.5]: of the direction
+    float bandwidth = 0.09f;               ///< in [0, 0.25]: of the wave number, relative
+    float sharpness = 0.25f;               ///< in [0, 0.9]: of the crests, 0 for a sinusoid
+    ripple_system second{.steepness = 0};  ///< other waves' ripples, added; none if they have no height
     roughness surface{.rms = 0.0025f, .longest = 0.4f};  ///< fine relief on the ripples, beyond their height
     std::uint64_t seed = 1;
     type kind = type::ripples;

@@ -22,9 +22,9 @@ namespace seabed {
 /// N ~ size^-sizes; height is proportional to size.
 struct rock {
     float relief = 0.5f;     ///< metres, >= 0: about the height of outcrops with their blocks
-    float outcrop = 6.0f;    ///< metres, > 0: typical distance between outcrops
-    float block = 1.4f;      ///< metres, > 0: spacing of the largest blocks, which are 0.6 to 1.8 of it wide
-    float smallest = 0.3f;   ///< metres, in (0, block]: spacing of the smallest
+    float outcrop = 6.0f;    ///< metres, from 0.001: typical distance between outcrops
+    float block = 1.4f;      ///< metres, from 0.001: spacing of the largest blocks, which are 0.6 to 1.8 of it wide
+    float smallest = 0.3f;   ///< metres, in [0.001, block]: spacing of the smallest
     float sizes = 2.2f;      ///< in [0, 4]: exponent of the numbers of blocks; at 2 each class covers the same area
     float fracture = 0.5f;   ///< in [0, 1]: fraction of lattice cells that hold a block of the most frequent size
     float steepness = 2.5f;  ///< > 0: slope of the walls of blocks, 1 is 45 degrees
@@ -46,12 +46,12 @@ class rock_sampler {
   public:
     explicit rock_sampler(const rock& r) : surface_(r.surface, r.seed, detail::stream::rubble), relief_(r.relief) {
         detail::require_metres("rock.relief", r.relief);
-        detail::require_positive_metres("rock.outcrop", r.outcrop);
+        detail::require_range("rock.outcrop", r.outcrop, 1e-3f, 1e6f, "metres from 0.001");
         detail::require_positive_metres("rock.block", r.block);
         detail::require_range("rock.smallest", r.smallest, 1e-3f, r.block, "metres from 0.001 to rock.block");
         detail::require_range("rock.sizes", r.sizes, 0, 4, "0 to 4");
         detail::require_fraction("rock.fracture", r.fracture);
-        detail::require(r.steepness > 0 && r.steepness < 1e6f, "rock.steepness", r.steepness, "a slope above 0");
+        detail::require(r.steepness > 0 && r.steepness < 1e6f, "rock.steepness", r.steepness, "above 0 and below 10^6");
         double cell = static_cast<double>(r.outcrop) / 2;
         for (std::uint32_t k = 0; k < 3; ++k, cell /= 2)
             outcrops_.push_back(detail::gradient_noise(cell, {r.seed, detail::stream::outcrops, k}));
@@ -103,7 +103,7 @@ class rock_sampler {
             lanes n, step, height;
             load(n, &weights[i]);
             n = 0.5f + 1.8f * (n - 0.25f);
-            detail::clamp_lanes(n);
+            detail::saturate_lanes(n);
             detail::fade(step, n);
             load(height, heights + i);
             height = height + (0.4f * relief_) * step;

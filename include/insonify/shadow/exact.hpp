@@ -104,7 +104,7 @@ class exact_occlusion {
         test(std::span<const points>(parts), std::span<const results>(into_parts), serial);
     }
 
-    /// The same for many batches of at most `max_batch` points each.
+    /// The same for at most `max_batches` batches of at most `max_batch` points each.
     template <executor E>
     void test(std::span<const points> at, std::span<const results> into, E& ex) const {
         const detail::points_by_tile sorted(planes_, at, into, ex);

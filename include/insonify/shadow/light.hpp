@@ -9,6 +9,8 @@
 #include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
 
+#include <variant>
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -29,16 +31,19 @@ struct point_light {
     glm::dvec3 position{0, 0, 1};  ///< metres
 };
 
+/// A light of any kind.
+using any_light = std::variant<directional_light, point_light>;
+
 inline namespace INSONIFY_FLAGS {
 
 /// Frame of a directional light; coordinates are metres.
 class light_frame {
   public:
-    /// @throws invalid_input for an elevation outside (0, pi / 2] or an azimuth that isn't finite
+    /// @throws invalid_input for an elevation outside (0, pi / 2] or an azimuth beyond 10^6 radians
     explicit light_frame(const directional_light& light) {
         insonify::detail::require(light.elevation > 0 && light.elevation <= numeric::pi / 2 + 1e-7, "elevation",
                                   light.elevation, "above 0 and at most pi / 2");
-        insonify::detail::require(numeric::is_finite(light.azimuth), "azimuth", light.azimuth, "a finite angle");
+        insonify::detail::require_angle("azimuth", light.azimuth);
         const auto [sin_azimuth, cos_azimuth] = numeric::sin_cos(light.azimuth);
         const auto [sin_elevation, cos_elevation] = numeric::sin_cos(light.elevation);
         travel_ = {cos_azimuth, sin_azimuth};
@@ -71,6 +76,15 @@ class light_frame {
 inline glm::dvec3 toward_disc(const glm::dvec3& to_light, const glm::dvec2& travel, const glm::dvec2& beside) {
     const glm::dvec3 across(-travel.y, travel.x, 0), up = numeric::cross(to_light, across);
     return to_light + beside.x * across + beside.y * up;
+}
+
+/// A point of a disc of light that faces the origin.
+/// @param beside  offset from the centre, across and up, over the centre's distance from the origin
+inline glm::dvec3 point_of_disc(const glm::dvec3& centre, const glm::dvec2& beside) {
+    const double distance = numeric::square_root(numeric::dot(centre, centre));
+    const double level = numeric::square_root(centre.x * centre.x + centre.y * centre.y);
+    const glm::dvec2 travel = level > 0 ? glm::dvec2(-centre.x / level, -centre.y / level) : glm::dvec2(1, 0);
+    return distance > 0 ? distance * toward_disc(centre / distance, travel, beside) : centre;
 }
 
 }  // namespace INSONIFY_FLAGS

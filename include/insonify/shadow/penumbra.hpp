@@ -66,13 +66,8 @@ class penumbra_occlusion {
     /// @param beside  its offset from the disc's centre, across and up, divided by the light's distance
     static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& beside) {
         if (beside == glm::dvec2(0)) return light;
-        if (const auto* from_nearby = std::get_if<point_light>(&light)) {
-            const glm::dvec3& p = from_nearby->position;
-            const double distance = numeric::square_root(numeric::dot(p, p));
-            const double level = numeric::square_root(p.x * p.x + p.y * p.y);
-            const glm::dvec2 travel = level > 0 ? glm::dvec2(-p.x / level, -p.y / level) : glm::dvec2(1, 0);
-            return point_light{distance > 0 ? distance * toward_disc(p / distance, travel, beside) : p};
-        }
+        if (const auto* from_nearby = std::get_if<point_light>(&light))
+            return point_light{point_of_disc(from_nearby->position, beside)};
         const light_frame frame(std::get<directional_light>(light));
         const glm::dvec3 d = toward_disc(frame.to_light(), frame.travel(), beside);
         if (!(d.z > 0)) return std::nullopt;
@@ -112,13 +107,14 @@ class penumbra_occlusion {
 /// the one that blocks the light's centre. The disc of a point light faces the origin of the frame in which the light
 /// is described.
 struct penumbra {
-    float diameter = static_cast<float>(numeric::to_radians(0.5));  ///< of the light as seen from the ground, radians
-    int samples = 16;                                               ///< points on the disc, the first at its centre
+    float diameter =
+        static_cast<float>(numeric::to_radians(0.5));  ///< of the light seen from the ground, 0 to 1 radian
+    int samples = 16;                                  ///< points on the disc, the first at its centre; 1 to 1024
 
     /// Radius of the light over its distance.
     /// @throws invalid_input for a diameter out of range
     INSONIFY_MEMBER double light_radius() const {
-        insonify::detail::require(diameter >= 0 && diameter <= 1, "diameter", diameter, "0 to 1 radian");
+        insonify::detail::require(diameter >= 0 && diameter <= 1, "penumbra.diameter", diameter, "0 to 1 radian");
         return numeric::tan(0.5 * static_cast<double>(diameter));
     }
 
@@ -127,7 +123,7 @@ struct penumbra {
     template <executor E>
     INSONIFY_MEMBER penumbra_occlusion build(std::span<const caster> casters, const any_light& light,
                                              const point_bounds& bounds, E& ex) const {
-        insonify::detail::require(samples >= 1 && samples <= 1024, "samples", samples, "1 to 1024");
+        insonify::detail::require(samples >= 1 && samples <= 1024, "penumbra.samples", samples, "1 to 1024");
         return {light_radius(), samples, casters, light, bounds, ex};
     }
 };

@@ -23,7 +23,6 @@
 
 #include <cstdint>
 #include <span>
-#include <variant>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -92,9 +91,6 @@ inline glm::dvec3 facet_of(std::span<const caster> casters, const points& at, st
     return numeric::cross(corner(1) - a, corner(2) - a);
 }
 
-/// A light of any kind.
-using any_light = std::variant<directional_light, point_light>;
-
 /// `structure.test(points, results)` sets all results. It is called for several batches at the same time.
 template <class S>
 concept occlusion = requires(const S& structure, const points& at, const results& into) {
@@ -144,7 +140,7 @@ double radius_of(const P& p) {
 
 /// An occlusion that is faster for all points of a picture at once. `structure.screen(points, results)` decides points
 /// that a cheap test can decide and sets the others to `unknown`; `structure.test(batches, results, executor)` decides
-/// those, all batches together, of at most `max_batch` points each.
+/// those, all batches together: at most `max_batches`, of at most `max_batch` points each.
 template <class S>
 concept collective_occlusion = occlusion<S> &&
     requires(const S& structure, const points& at, const results& into, std::span<const points> all_at,
@@ -152,8 +148,9 @@ concept collective_occlusion = occlusion<S> &&
     structure.screen(at, into);
     structure.test(all_at, all_into, ex);
 };
-inline constexpr std::size_t max_batch = 65536;  ///< points, see collective_occlusion
-inline constexpr float unknown = -1;             ///< in results::lit, between screening and testing
+inline constexpr std::size_t max_batch = 65536;    ///< points, see collective_occlusion
+inline constexpr std::size_t max_batches = 65536;  ///< see collective_occlusion
+inline constexpr float unknown = -1;               ///< in results::lit, between screening and testing
 
 /// Result of a test that may leave a triangle or a point undecided.
 enum class decision : std::uint8_t { lit, dark, undecided };

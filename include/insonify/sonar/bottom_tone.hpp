@@ -48,7 +48,7 @@ inline void validate(const bottom_tone& t) {
     length("bottom_tone.streak_length", t.streak_length);
     length("bottom_tone.patch_size", t.patch_size);
     require_range("bottom_tone.octaves", t.octaves, 1, 8, "1 to 8");
-    require(numeric::is_finite(t.direction), "bottom_tone.direction", t.direction, "a finite angle");
+    require_angle("bottom_tone.direction", t.direction);
     require_range("bottom_tone.patches", t.patches, -30, 30, "-30 to 30 dB");
     require_range("bottom_tone.patch_share", t.patch_share, 0.01f, 0.99f, "0.01 to 0.99");
 }

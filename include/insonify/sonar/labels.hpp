@@ -39,6 +39,11 @@ struct labels {
     std::vector<target_label> targets;
     std::vector<insonify::seabed::type_properties> legend;  ///< of the values of `seabed`
 
+    /// The label of a caster in `shadow`. Targets are the first casters.
+    INSONIFY_MEMBER static std::uint16_t of_caster(std::size_t caster, std::size_t targets) {
+        return caster < targets ? static_cast<std::uint16_t>(caster + 1) : by_seabed;
+    }
+
     labels() = default;
     template <executor_argument Executor = serial_executor>
     INSONIFY_MEMBER labels(int width, int height, Executor&& ex = serial_executor{})

@@ -7,8 +7,9 @@
 #include <insonify/seabed/sample.hpp>
 #include <insonify/seabed/tessellate.hpp>
 #include <insonify/shadow/exact.hpp>
-#include <insonify/sonar/detail/shadow_terms.hpp>
-#include <insonify/sonar/scene.hpp>
+#include <insonify/sonar/detail/casting_ground.hpp>
+#include <insonify/sonar/labels.hpp>
+#include <insonify/sonar/overhead/rig.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -19,7 +20,7 @@ inline namespace INSONIFY_ABI {
 struct occlusion_bounds {
     bounding_box box;  ///< contains all points, in the world; not empty
     double cell = 0;   ///< metres between vertices of the seabed; 0: a 512th of the box's longer side
-    double reach = 8;  ///< how far towards the light the seabed is sampled at most, in lengths of the longer side
+    double reach = 8;  ///< how far towards the light the seabed is sampled at most, along either axis, in longer sides
 };
 
 inline namespace INSONIFY_FLAGS {
@@ -27,7 +28,7 @@ inline namespace INSONIFY_FLAGS {
 /// The light of a rig, in the world.
 inline shadow::any_light light_of(const overhead& rig) {
     const overhead_geometry view(rig);
-    shadow::any_light light = detail::light_in_rig(view);
+    shadow::any_light light = view.light_source();
     if (auto* parallel = std::get_if<shadow::directional_light>(&light)) {
         parallel->azimuth += numeric::widened(rig.yaw);
     } else {
@@ -80,7 +81,7 @@ class scene_occlusion {
             built_.test(shadow::points{x, y, z, none, none},
                         shadow::results{std::span(all.lit).subspan(first, count), caster});
             for (std::size_t i = 0; i < count; ++i)
-                if (caster[i] != shadow::invalid_id) all.shadow[first + i] = detail::shadow_label(caster[i], targets_);
+                if (caster[i] != shadow::invalid_id) all.shadow[first + i] = labels::of_caster(caster[i], targets_);
         });
         return all;
     }
@@ -141,40 +142,31 @@ class scene_occlusion {
         detail::dynamic_array<placed> all;
         for (const target& t : s.targets) all.push_back({t.shape, around_centre(to_world(t.placement))});
         if (s.seabed.empty()) return all;
-        seabed::detail::require_finite(s.seabed.prepare().range());
-        const detail::ground_rect ground = casting_ground(s, light, within, radius);
-        seabed::grid grid = seabed::grid_over(ground.lower, ground.upper, cell_of(within));
+        const seabed::height_range range = s.seabed.prepare().range();
+        seabed::detail::require_finite(range);
+        const detail::ground_rect ground = casting_ground(from_centre(light), within, range.highest, radius);
+        const glm::dvec2 centre(centre_);
+        seabed::grid grid = seabed::grid_over(ground.lower + centre, ground.upper + centre, cell_of(within));
         grid.band_limited = true;
         const seabed::heightfield field = seabed::sample(s.seabed, grid, ex);
         all.push_back({seabed::tessellate(field, ex), around_centre({glm::dmat3(1), glm::dvec3(field.origin, 0)})});
         return all;
     }
 
-    /// The ground below the box, and towards the light as far as the seabed may reach into a ray.
-    static detail::ground_rect casting_ground(const scene& s, const shadow::any_light& light,
-                                              const occlusion_bounds& within, double radius) {
-        const glm::dvec2 lower(within.box.lower), upper(within.box.upper);
-        detail::ground_rect ground{lower - cell_of(within), upper + cell_of(within)};
-        const double longest = within.reach * longer_side(within);
-        const double highest = s.seabed.prepare().range().highest, rise = highest - within.box.lower.z;
-        if (!(rise > 0)) return ground;
-        for (int corner = 0; corner < 4; ++corner) {
-            const glm::dvec2 from((corner & 1) != 0 ? upper.x : lower.x, (corner & 2) != 0 ? upper.y : lower.y);
-            glm::dvec2 way;
-            if (const auto* from_nearby = std::get_if<shadow::point_light>(&light)) {
-                const double up = from_nearby->position.z - within.box.lower.z;
-                way = (up > rise ? rise / up : 1.0) * (glm::dvec2(from_nearby->position) - from);
-            } else {
-                const shadow::light_frame frame(std::get<shadow::directional_light>(light));
-                way = -rise * frame.cot_elevation() * frame.travel();
-            }
-            // Rays from the rim of an extended light start farther away and to the side.
-            const double length = numeric::square_root(way.x * way.x + way.y * way.y);
-            const double wider = length + radius * (length * length / rise + rise);
-            const double aside = (std::min)(longest, wider) - (std::min)(longest, length);
-            ground.include(from + (length > longest ? longest / length : 1.0) * way, aside);
-        }
-        return ground;
+    /// The ground below the box, and towards the light as far as the seabed may reach into a ray, around the centre.
+    detail::ground_rect casting_ground(const shadow::any_light& light, const occlusion_bounds& within, double highest,
+                                       double radius) const {
+        const glm::dvec2 lower = glm::dvec2(within.box.lower) - glm::dvec2(centre_) - cell_of(within),
+                         upper = glm::dvec2(within.box.upper) - glm::dvec2(centre_) + cell_of(within);
+        const auto* const from_nearby = std::get_if<shadow::point_light>(&light);
+        return detail::casting_ground({lower, upper}, {within.box.lower.z, highest}, radius,
+                                      within.reach * longer_side(within), from_nearby != nullptr,
+                                      [&](const glm::dvec2& beside) {
+                                          if (from_nearby != nullptr)
+                                              return shadow::point_of_disc(from_nearby->position, beside);
+                                          const shadow::light_frame frame(std::get<shadow::directional_light>(light));
+                                          return shadow::toward_disc(frame.to_light(), frame.travel(), beside);
+                                      });
     }
 
     glm::dvec3 centre_;

@@ -222,6 +222,7 @@ TEST_CASE("A pipe is solid, with its stated size and the volume of its wall") {
     CHECK(is_same(in::open_pipe{.broken = 2, .seed = 3}, in::open_pipe{.broken = 2, .seed = 3}));
     CHECK_FALSE(is_same(in::open_pipe{.broken = 2, .seed = 3}, in::open_pipe{.broken = 2, .seed = 4}));
     CHECK(in::segments_for(in::open_pipe{}, 0.001f) == in::segments_for(0.355f, 0.001f));
+    CHECK_THROWS_WITH(in::segments_for(in::open_pipe{}, 1e-9f), ContainsSubstring("8192 segments"));
     CHECK_THROWS_WITH(to_mesh(in::open_pipe{.diameter = 0}), ContainsSubstring("open_pipe.diameter is 0"));
     CHECK_THROWS_WITH(to_mesh(in::open_pipe{.length = not_a_number}), ContainsSubstring("open_pipe.length"));
     CHECK_THROWS_WITH(to_mesh(in::open_pipe{.wall = 0.4f}), ContainsSubstring("open_pipe.wall is 0.4"));
@@ -533,6 +534,21 @@ TEST_CASE("with_creases() is smooth across gentle bends and sharp across edges")
     for (std::size_t i = 0; i < ball.positions.size(); ++i)
         CHECK(in::numeric::dot(ball.normals[i], ball.positions[i]) == Approx(0.5f).epsilon(0.001));
     CHECK_THROWS_AS(in::with_creases({{}, {}, {{0, 1, 2}}}), in::invalid_input);
+    for (const float angle : {-0.1f, 3.2f, 1e20f, std::numeric_limits<float>::quiet_NaN()})
+        CHECK_THROWS_WITH(in::with_creases(box, angle), ContainsSubstring("angle is "));
+}
+
+TEST_CASE("with_creases() keeps triangles without area or with NaN out of their neighbours' normals") {
+    in::mesh m{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {0, 0, std::numeric_limits<float>::quiet_NaN()}},
+               {},
+               {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}};
+    std::swap(m.triangles[0].y, m.triangles[0].z);  // the first one faces downwards
+    const in::mesh smooth = in::with_creases(m, 3);
+    for (int i = 0; i < 3; ++i) {
+        CHECK(smooth.normals[smooth.triangles[0][i]] == glm::vec3(0, 0, -1));
+        CHECK(smooth.normals[smooth.triangles[1][i]] == glm::vec3(0, 0, 1));
+        CHECK(smooth.normals[smooth.triangles[2][i]] == glm::vec3(0, 0, 1));
+    }
 }
 
 TEST_CASE("footprint() is the convex outline of the lowest vertices") {

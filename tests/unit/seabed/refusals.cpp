@@ -38,10 +38,10 @@ TEST_CASE("Each field of ripples is refused by name") {
     static_assert(members<sb::ripples>() == 10 && members<sb::ripple_system>() == 6);
     check_fields<sb::ripples>(
         "ripples.", {}, prepare_any,
-        {FIELD(wavelength, outside(0, most)), FIELD(steepness, outside(0, 0.5)), FIELD(direction, not_finite),
+        {FIELD(wavelength, outside(1e-4, most)), FIELD(steepness, outside(0, 0.5)), FIELD(direction, not_an_angle),
          FIELD(spread, outside(0, 0.5)), FIELD(bandwidth, outside(0, 0.25)), FIELD(sharpness, outside(0, 0.9)),
-         FIELD(second.wavelength, outside(0, most)), FIELD(second.steepness, outside(0, 0.5)),
-         FIELD(second.direction, not_finite), FIELD(second.spread, outside(0, 0.5)),
+         FIELD(second.wavelength, outside(1e-4, most)), FIELD(second.steepness, outside(0, 0.5)),
+         FIELD(second.direction, not_an_angle), FIELD(second.spread, outside(0, 0.5)),
          FIELD(second.bandwidth, outside(0, 0.25)), FIELD(second.sharpness, outside(0, 0.9))});
 }
 
@@ -57,7 +57,7 @@ TEST_CASE("Each field of mud, its trawl marks and rock is refused by name") {
          FIELD(directions, outside_whole(1, 8)), FIELD(length, outside(0, most))});
     check_fields<sb::rock>(
         "rock.", {}, prepare_any,
-        {FIELD(relief, outside(0, most)), FIELD(outcrop, outside(0, most)), FIELD(block, outside(0, most)),
+        {FIELD(relief, outside(0, most)), FIELD(outcrop, outside(1e-3, most)), FIELD(block, outside(0, most)),
          FIELD(smallest, outside(1e-3, 1.4)), FIELD(sizes, outside(0, 4)), FIELD(fracture, outside(0, 1)),
          FIELD(steepness, outside(0, most))});
 }
@@ -70,23 +70,25 @@ TEST_CASE("Each field of blends, layers and areas is refused by name") {
     static_assert(members<sb::polygon>() == 1);
     const auto within = [](const auto& area) { prepare_any(sb::mixed{.layers = {{.where = area}}}); };
     check_fields<sb::layer>("layer.", {}, [](const sb::layer& l) { prepare_any(sb::mixed{.layers = {l}}); },
-                            {FIELD(border, outside(1e-3, most)), FIELD(ragged, outside(0, most))});
+                            {FIELD(border, outside(1e-3, most)), FIELD(ragged, outside(0, 1e5))});
     check_fields<sb::patches>("patches.", {}, within,
                               {FIELD(coverage, outside(0, 1)), FIELD(size, outside(0.6, most))});
-    check_fields<sb::disc>("disc.", {}, within,
-                           {FIELD(centre.x, not_finite), FIELD(centre.y, not_finite), FIELD(radius, outside(0, 1e9))});
+    check_fields<sb::disc>("disc.", {}, within, {POSITION(centre), FIELD(radius, outside(0, 1e9))});
     check_fields<sb::band>("band.", {.path = {{0, 0}, {1, 1}}}, within,
                            {FIELD(width, outside(0, 1e9)),
-                            {"path", [](auto& o, double v) { o.path[1].x = v; }, not_finite},
-                            {"path", [](auto& o, double v) { o.path[0].y = v; }, not_finite}});
+                            {"path", [](auto& o, double v) { o.path[1].x = v; }, outside(-1e9, 1e9)},
+                            {"path", [](auto& o, double v) { o.path[0].y = v; }, outside(-1e9, 1e9)}});
     check_fields<sb::polygon>("polygon.", {.corners = {{0, 0}, {1, 0}, {0, 1}}}, within,
-                              {{"corners", [](auto& o, double v) { o.corners[2].y = v; }, not_finite}});
+                              {{"corners", [](auto& o, double v) { o.corners[2].y = v; }, outside(-1e9, 1e9)}});
     check_fields<sb::stencil>(
         "stencil.", {.coverage = in::image<float>(2, 2)}, within,
         {FIELD(spacing, outside(0, most)),
          FIELD(origin.x, outside(-1e9, 1e9)),
          FIELD(origin.y, outside(-1e9, 1e9)),
          {"coverage", [](auto& o, double v) { o.coverage(1, 1) = static_cast<float>(v); }, not_finite}});
+    CHECK(refusal([] { prepare_any(sb::mixed{.layers = std::vector<sb::layer>(500)}); }) == "");
+    CHECK_THAT(refusal([] { prepare_any(sb::mixed{.layers = std::vector<sb::layer>(501)}); }),
+               ContainsSubstring("mixed.layers.size() is 501"));
     CHECK_THAT(refusal([&] { within(sb::band{}); }), ContainsSubstring("band.path"));
     CHECK_THAT(refusal([&] { within(sb::polygon{{{0, 0}, {1, 0}}}); }), ContainsSubstring("polygon.corners"));
     CHECK_THAT(refusal([&] { within(sb::stencil{}); }), ContainsSubstring("stencil.coverage"));
@@ -116,7 +118,7 @@ TEST_CASE("Each field of an edit is refused by name") {
                            {{"outline", [](auto& o, double v) { o.outline[1].y = v; }, not_finite},
                             FIELD(depth, size),
                             FIELD(width, size),
-                            FIELD(current, not_finite),
+                            FIELD(current, not_an_angle),
                             FIELD(mound, size),
                             FIELD(tail, size)});
 }

@@ -30,6 +30,14 @@ TEST_CASE("Sediments are found by name and by grain size") {
     CHECK(static_cast<int>(sb::type::silty_clay) == 15);
 }
 
+TEST_CASE("A value that names no sediment is refused") {
+    for (const int value : {0, 3, 16, 255}) {
+        CAPTURE(value);
+        CHECK_THROWS_WITH(sb::facts_of(static_cast<sb::sediment>(value)),
+                          "sediment is " + std::to_string(value) + ", expected an enumerator of seabed::sediment");
+    }
+}
+
 TEST_CASE("The relief of a sediment is that of its spectrum: 2 pi w2 K^-1.25 / 1.25 at a metre") {
     const double w2 = 0.004446, k = 2 * 3.14159265358979 / 100;
     const double expected = std::sqrt(2 * 3.14159265358979 * w2 * std::pow(k, -1.25) / 1.25) / 100;

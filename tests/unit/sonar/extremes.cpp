@@ -128,6 +128,21 @@ TEST_CASE("Ground of two triangles 20000 km wide gives the same picture at every
         CHECK(differences(at_level(level), one_by_one, 0) == 0);
 }
 
+TEST_CASE("A picture of 4096 x 4096 pixels is the same in 262144 tiles and in 4096", "[.slow]") {
+    // Under a near light the policy decides every point, and tests them all together.
+    in::scene s;
+    s.seabed = in::seabed::ripples{};
+    for (int i = 0; i < 7; ++i)
+        s.add(in::cube{.size = glm::vec3(0.3f)}, {.position = {0.8 * i - 2.4, 0.1, 0.15}}, "cube");
+    const in::overhead rig{.altitude = 3, .size = {4096, 4096}, .grazing = 0.2f, .light_distance = 12};
+    in::render_options<> options;
+    const auto usual = in::render(s, rig, options);
+    options.tile = 8;
+    const auto small = in::render(s, rig, options);
+    CHECK(small.image == usual.image);
+    CHECK(small.labels.shadow == usual.labels.shadow);
+}
+
 TEST_CASE("Pictures of any size are drawn, of full and of empty scenes") {
     for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(1, 300), glm::ivec2(300, 1), glm::ivec2(2047, 3)}) {
         const auto frame = in::render(scene_at({0, 0, 0}), in::overhead{.altitude = 5, .size = size});

@@ -79,6 +79,19 @@ TEST_CASE("A wall of seabed outside of the bounds shades points within height / 
     CHECK(blind.test(std::vector<glm::dvec3>{{-0.5, 0.3, 1e-3}}).lit[0] == 1);
 }
 
+TEST_CASE("A wide light is partly shaded by seabed beyond the reach of its centre's rays") {
+    in::scene s;
+    s.seabed = wall();
+    // 16 m behind the wall, a ray below 3.576 degrees meets it: 0.0374 rad below the centre of a disc of radius 0.05.
+    const auto shade =
+        in::occlusion_of(s, in::shadow::directional_light{0, std::atan(0.1)}, {{{5.8, -1, 0}, {7, 1, 0.5}}, 0.1, 20},
+                         in::shadow::penumbra{.diameter = 0.1f, .samples = 400});
+    const double depth = (std::atan(0.1) - std::atan(1.0 / 16)) / 0.05;
+    const double segment = (std::acos(depth) - depth * std::sqrt(1 - depth * depth)) / in::numeric::pi;
+    CHECK(static_cast<double>(shade.test(std::vector<glm::dvec3>{{6, 0.3, 0}}).lit[0]) ==
+          Approx(1 - segment).margin(0.01));
+}
+
 TEST_CASE("Points of a level bottom are lit as its picture's pixels are, under a rig that is moved and turned") {
     for (const float distance : {std::numeric_limits<float>::infinity(), 7.0f}) {
         in::overhead rig{.position = {300, -200},

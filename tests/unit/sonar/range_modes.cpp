@@ -360,6 +360,19 @@ TEST_CASE("A pitched fan meets relief where its plane cuts the seabed") {
     CHECK(dark[0] > dark[1] + 10);
 }
 
+TEST_CASE("A ping on the border of two tiles of the seabed is like any other") {
+    in::scene s;
+    s.seabed = in::seabed::flat{.surface = {.rms = 0}};
+    const in::side_scan rig{.range = 20, .bins = 200};
+    in::record_options<> options;
+    // The cell is rounded to 0.030029296875. At this y a quotient and a product with the reciprocal round differently.
+    options.cell = 0.03;
+    const auto at = [&](double y) {
+        return in::record(s, std::vector<in::ping>{{.position = {0, y, 5}}}, rig, options).image;
+    };
+    CHECK(at(-46.125) == at(-46.11));
+}
+
 TEST_CASE("Roll adds to the tilt of the beam on the lower side") {
     in::scene s;
     s.seabed = in::seabed::ripples{};

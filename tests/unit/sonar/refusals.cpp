@@ -29,8 +29,8 @@ TEST_CASE("render() refuses each field of an overhead rig by name") {
     check_fields<in::overhead>(
         "overhead.", small_rig, use,
         {FIELD(position.x, not_finite), FIELD(position.y, not_finite), FIELD(altitude, not_above_0),
-         FIELD(yaw, not_finite), FIELD(field_of_view, outside(0, 3.1399)), FIELD(size.x, outside_whole(1, 32768)),
-         FIELD(size.y, outside_whole(1, 32768)), FIELD(grazing, outside(0, 1.571)), FIELD(light_azimuth, not_finite),
+         FIELD(yaw, not_an_angle), FIELD(field_of_view, outside(0, 3.1399)), FIELD(size.x, outside_whole(1, 32768)),
+         FIELD(size.y, outside_whole(1, 32768)), FIELD(grazing, outside(0, 1.571)), FIELD(light_azimuth, not_an_angle),
          FIELD(light_distance, {nan_value, -infinity, -1, 0}), FIELD(intensity, below_0), FIELD(sky, below_0),
          FIELD(ambient, below_0)});
 }
@@ -44,7 +44,7 @@ TEST_CASE("render() and record() refuse each field of a side-scan rig by name") 
     };
     const std::initializer_list<field<in::side_scan>> fields{
         FIELD(position.x, not_finite), FIELD(position.y, not_finite),    FIELD(altitude, not_finite),
-        FIELD(yaw, not_finite),        FIELD(ping_spacing, not_above_0), FIELD(pings, outside_whole(1, 1 << 20)),
+        FIELD(yaw, not_an_angle),      FIELD(ping_spacing, not_above_0), FIELD(pings, outside_whole(1, 1 << 20)),
         FIELD(first_range, below_0),   FIELD(range, outside(0, 1e5)),    FIELD(bins, outside_whole(1, 1 << 20)),
         FIELD(side, {2, 255})};
     check_fields("side_scan.", small_side_scan, rendered, fields);
@@ -56,14 +56,14 @@ TEST_CASE("record() refuses each field of a ping by name") {
     const auto use = [](const in::ping& p) { (void)in::record(small_scene(), std::span(&p, 1), small_side_scan); };
     check_fields<in::ping>("ping.", {}, use,
                            {FIELD(position.x, not_finite), FIELD(position.y, not_finite), FIELD(position.z, not_finite),
-                            FIELD(yaw, not_finite), FIELD(pitch, outside(-1.397, 1.397)), FIELD(roll, not_finite)});
+                            FIELD(yaw, not_an_angle), FIELD(pitch, outside(-1.397, 1.397)), FIELD(roll, not_an_angle)});
 }
 
 TEST_CASE("Every view of a scene refuses each field of a pose and a material by name") {
     static_assert(members<in::pose>() == 6 && members<in::material>() == 1 && members<in::target>() == 4);
     const std::initializer_list<field<in::pose>> pose{FIELD(position.x, not_finite), FIELD(position.y, not_finite),
-                                                      FIELD(position.z, not_finite), FIELD(yaw, not_finite),
-                                                      FIELD(pitch, not_finite),      FIELD(roll, not_finite),
+                                                      FIELD(position.z, not_finite), FIELD(yaw, not_an_angle),
+                                                      FIELD(pitch, not_an_angle),    FIELD(roll, not_an_angle),
                                                       FIELD(scale, not_above_0),     FIELD(burial, not_finite)};
     const auto view = GENERATE(0, 1, 2);
     const auto seen = [&](const in::scene& s) {
@@ -131,7 +131,7 @@ TEST_CASE("record() refuses each field of a sonar equation by name") {
     check_fields<in::absorption>("absorption.", {}, use, {FIELD(decibels_per_km, outside(0, 3000))});
     check_fields<in::vertical_beam>(
         "vertical_beam.", {}, use,
-        {FIELD(beamwidth, not_above_0), FIELD(tilt, not_finite), FIELD(side_lobes, below_0)});
+        {FIELD(beamwidth, not_above_0), FIELD(tilt, not_an_angle), FIELD(side_lobes, below_0)});
     check_fields<in::horizontal_beam>("horizontal_beam.", {}, use, {FIELD(beamwidth, not_above_0)});
     check_fields<in::pulse>("pulse.", {}, use, {FIELD(length, below_0)});
     check_fields<in::noise_floor>("noise_floor.", {}, use, {FIELD(intensity, below_0)});
@@ -198,7 +198,7 @@ TEST_CASE("Lights and the bounds of occlusion are refused by name") {
     const in::occlusion_bounds around{.box = {{-1, -1, 0}, {1, 1, 1}}};
     const auto under = [&](const auto& light) { (void)in::occlusion_of(small_scene(), light, around); };
     check_fields<in::shadow::directional_light>("", {}, under,
-                                                {FIELD(azimuth, not_finite), FIELD(elevation, outside(0, 1.571))});
+                                                {FIELD(azimuth, not_an_angle), FIELD(elevation, outside(0, 1.571))});
     check_fields<in::shadow::point_light>("point_light.", {{3, 2, 4}}, under,
                                           {{"position", [](auto& o, double v) { o.position.x = v; }, not_finite},
                                            {"position", [](auto& o, double v) { o.position.y = v; }, not_finite},
@@ -276,7 +276,7 @@ TEST_CASE("with_tone() refuses each field of a tone by name") {
         [&](const in::bottom_tone& t) { (void)in::with_tone(heard, small_side_scan, t); },
         {FIELD(drift, outside(0, 30)), FIELD(drift_length, outside(0, 1e9)), FIELD(octaves, outside_whole(1, 8)),
          FIELD(streaks, outside(0, 30)), FIELD(streak_width, outside(0, 1e9)), FIELD(streak_length, outside(0, 1e9)),
-         FIELD(direction, not_finite), FIELD(patches, outside(-30, 30)), FIELD(patch_size, outside(0, 1e9)),
+         FIELD(direction, not_an_angle), FIELD(patches, outside(-30, 30)), FIELD(patch_size, outside(0, 1e9)),
          FIELD(patch_share, outside(0.01, 0.99))});
     check_fields<in::side_scan>(
         "side_scan.", small_side_scan, [&](const in::side_scan& rig) { (void)in::with_tone(heard, rig, {.drift = 1}); },

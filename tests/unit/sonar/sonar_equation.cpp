@@ -78,6 +78,22 @@ TEST_CASE("Level seabed has constant intensity after level_gain, for any sonar, 
                              in::horizontal_beam{}, in::pulse{0.1f}, in::level_gain{}});
 }
 
+TEST_CASE("Level seabed has constant intensity in ground range whatever the altitude of a ping") {
+    const in::ground_range rig{.altitude = 5, .ping_spacing = 0.1f, .range = 50, .bins = 500};
+    const std::vector<in::ping> track{{.position = {0, 0, 5}}, {.position = {0, 0.1, 20}}, {.position = {0, 0.2, 2}}};
+    const in::sonar_equation equation{in::spreading_loss{}, in::absorption{}, in::level_gain{}};
+    const auto picture = in::record(
+        level_bottom(0.45f), track, rig,
+        in::record_options<in::no_labels, in::lambert_backscatter, decltype(equation)>{.equation = equation});
+    for (int y = 0; y < 3; ++y) {
+        const int first = static_cast<int>(10 * track[static_cast<std::size_t>(y)].position.z) + 2;  // from 45 degrees
+        const auto [mean, deviation] =
+            level(first, 490, [&](int b) { return static_cast<double>(picture.image(b, y)); });
+        CHECK(mean == Approx(0.45).epsilon(0.002));
+        CHECK(deviation < 0.01);
+    }
+}
+
 TEST_CASE("Time-varied gain of 40 dB per decade, or 30 with a beam, makes seabed level up to 1 / cos(grazing angle)") {
     const auto check = [](const auto& equation) {
         const auto picture = heard(level_bottom(), equation, long_rig, constant_law{});

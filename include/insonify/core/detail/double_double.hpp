@@ -23,7 +23,7 @@ struct double_double {
         const double s = a + b, part = s - a;
         return {s, (a - (s - part)) + (b - part)};
     }
-    /// a b exactly, |a|, |b| < 2^995.
+    /// a b exactly, for |a|, |b| < 2^995 and 2^-960 < |a b| < 2^1023, or a b = 0.
     static double_double product(double a, double b) {
         const double p = a * b;
         const auto [a1, a0] = halves(a);

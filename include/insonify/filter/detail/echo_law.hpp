@@ -103,7 +103,7 @@ class echo_law {
         const parameter &looks = statistics_.looks, &shape = statistics_.texture, &steady = statistics_.steady;
         const float whole = looks.is_constant() ? looks.value() : 0;
         require(whole >= 1 && whole <= 64 && whole == static_cast<float>(static_cast<int>(whole)),
-                "looks of correlated speckle", whole, "a whole number, 1 to 64, for all pixels");
+                "number of looks of correlated speckle", whole, "a whole number, 1 to 64, for all pixels");
         if (shape.is_constant() && shape.value() > 0) texture_.emplace(static_cast<double>(shape.value()));
         const auto speckle = rice_correlation(steady.is_constant() ? static_cast<double>(steady.value()) : 0);
         const double speckle_index = 1 / static_cast<double>(whole);

@@ -1,8 +1,8 @@
 // Aeroplanes, whole, without wings or tail, or on their back.
 #pragma once
 
+#include <insonify/geometry/creases.hpp>
 #include <insonify/geometry/objects/compound.hpp>
-#include <insonify/geometry/objects/creases.hpp>
 #include <insonify/geometry/objects/detail/aeroplane_form.hpp>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <insonify/geometry/bounds.hpp>
-#include <insonify/geometry/objects/creases.hpp>
+#include <insonify/geometry/creases.hpp>
 #include <insonify/geometry/objects/detail/lattice_noise.hpp>
 #include <insonify/geometry/objects/detail/solids.hpp>
 

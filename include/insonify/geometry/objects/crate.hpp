@@ -1,7 +1,7 @@
 // Wooden crates, whole or with boards missing.
 #pragma once
 
-#include <insonify/geometry/objects/creases.hpp>
+#include <insonify/geometry/creases.hpp>
 #include <insonify/geometry/objects/detail/solids.hpp>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // Ships, whole, broken in two or collapsed.
 #pragma once
 
+#include <insonify/geometry/creases.hpp>
 #include <insonify/geometry/objects/compound.hpp>
-#include <insonify/geometry/objects/creases.hpp>
 #include <insonify/geometry/objects/detail/hull_fittings.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Lobster pots: frames of bars under a net.
 #pragma once
 
-#include <insonify/geometry/objects/creases.hpp>
+#include <insonify/geometry/creases.hpp>
 #include <insonify/geometry/objects/detail/solids.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Pipes with open ends: lost pipeline joints, culvert pipes, spool pieces.
 #pragma once
 
-#include <insonify/geometry/objects/creases.hpp>
+#include <insonify/geometry/creases.hpp>
 #include <insonify/geometry/objects/detail/solids.hpp>
 #include <insonify/geometry/revolution.hpp>
 
@@ -87,9 +87,9 @@ inline mesh to_mesh(const open_pipe& p) {
 }
 
 /// Fewest segments with which the outside is nowhere farther than `deviation` from its circle.
-/// @throws invalid_input as `segments_for(radius, chord_error)`
+/// @throws invalid_input as `segments_for(radius, chord_error)`, and for deviations that need more than 8192 segments
 inline int segments_for(const open_pipe& p, float deviation) {
-    return (std::max)(segments_for(0.5f * p.diameter + p.flange, deviation), 6);
+    return detail::object_segments_for(0.5f * p.diameter + p.flange, deviation);
 }
 
 }  // namespace INSONIFY_FLAGS

@@ -1,7 +1,7 @@
 // Truncated cones that lie on the bottom: ground mines of the Manta kind, sinkers, mooring blocks.
 #pragma once
 
-#include <insonify/geometry/objects/creases.hpp>
+#include <insonify/geometry/creases.hpp>
 #include <insonify/geometry/objects/detail/solids.hpp>
 #include <insonify/geometry/revolution.hpp>
 
@@ -92,9 +92,9 @@ inline mesh to_mesh(const truncated_cone& c) {
 }
 
 /// Fewest segments with which the base is nowhere farther than `deviation` from its circle.
-/// @throws invalid_input as `segments_for(radius, chord_error)`
+/// @throws invalid_input as `segments_for(radius, chord_error)`, and for deviations that need more than 8192 segments
 inline int segments_for(const truncated_cone& c, float deviation) {
-    return (std::max)(segments_for(0.5f * c.diameter, deviation), 6);
+    return detail::object_segments_for(0.5f * c.diameter, deviation);
 }
 
 }  // namespace INSONIFY_FLAGS

@@ -1,7 +1,7 @@
 // Tyres that lie flat on the bottom.
 #pragma once
 
-#include <insonify/geometry/objects/creases.hpp>
+#include <insonify/geometry/creases.hpp>
 #include <insonify/geometry/objects/detail/solids.hpp>
 #include <insonify/geometry/revolution.hpp>
 
@@ -19,10 +19,10 @@ inline namespace INSONIFY_ABI {
 /// width, so 381 + 2 * 0.65 * 195 = 634 mm across. A lorry's 315/80 R22.5 (ISO 4209-1) is 1.076 m, 0.315 m, 0.572 m.
 struct tyre {
     float diameter = 0.634f;      ///< outside, metres
-    float width = 0.195f;         ///< metres
-    float rim_diameter = 0.381f;  ///< of the hole, metres, at most 0.95 of the diameter
-    float wall = 0.015f;          ///< thickness, metres, at most 0.45 of the width
-    float fill = 0;               ///< share of the inner height that sediment fills the hole to: 0, or 0.001 to 1
+    float width = 0.195f;         ///< metres, 0.001 to 10 diameters
+    float rim_diameter = 0.381f;  ///< of the hole, metres, 0.001 to 0.95 diameters
+    float wall = 0.015f;          ///< thickness, metres, at most 0.45 of the width and of diameter - rim_diameter
+    float fill = 0;               ///< depth of sediment in the hole over 0.95 of the inner height: 0, or 0.001 to 1
     int segments = 64;            ///< around the axis, 6 to 8192; a quarter as many across the tread
 };
 
@@ -65,7 +65,7 @@ inline mesh to_mesh(const tyre& t) {
     mesh body = revolve(outline, t.segments);
 
     if (t.fill > 0) {
-        // Sediment reaches into the ring, whose inside is that high a third of the way up.
+        // The sediment ends in the cavity, at 0.3 of its depth, where the cavity is higher than the sediment ever is.
         const double inner = 0.9 * (half - wall), bottom = half - inner, reach = rim + 0.3 * (ring - wall);
         const double surface = bottom + 2 * inner * static_cast<double>(t.fill);
         const std::vector<outline_point> sediment = {
@@ -77,9 +77,9 @@ inline mesh to_mesh(const tyre& t) {
 }
 
 /// Fewest segments with which the tread is nowhere farther than `deviation` from its circle.
-/// @throws invalid_input as `segments_for(radius, chord_error)`
+/// @throws invalid_input as `segments_for(radius, chord_error)`, and for deviations that need more than 8192 segments
 inline int segments_for(const tyre& t, float deviation) {
-    return (std::max)(segments_for(0.5f * t.diameter, deviation), 6);
+    return detail::object_segments_for(0.5f * t.diameter, deviation);
 }
 
 }  // namespace INSONIFY_FLAGS

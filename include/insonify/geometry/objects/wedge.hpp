@@ -1,7 +1,7 @@
 // Low wedges that lie on the bottom: ground mines of the Rockan kind.
 #pragma once
 
-#include <insonify/geometry/objects/creases.hpp>
+#include <insonify/geometry/creases.hpp>
 #include <insonify/geometry/objects/detail/solids.hpp>
 
 #include <vector>

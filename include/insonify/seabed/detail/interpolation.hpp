@@ -24,20 +24,21 @@ INSONIFY_INLINE void catmull_rom(T& into, const T (&p)[4], const T& t) {
             d = 0.5f * (p[3] - p[0]) + 1.5f * (p[1] - p[2]);
     into = p[1] + t * (b + t * (c + t * d));
 }
-constexpr float mix(float a, float b, float t) {
-    return a + t * (b - a);
+/// Linear interpolation, exact at both ends.
+constexpr float lerp(float a, float b, float t) {
+    return a * (1 - t) + b * t;
 }
-[[nodiscard]] constexpr float clamp01(float t) {
+[[nodiscard]] constexpr float saturate(float t) {
     return t < 0 ? 0 : t > 1 ? 1 : t;
 }
-/// (1 - r^2)^2: 1 in the middle; its value and slope are 0 from a distance of 1 on.
+/// The biweight kernel (1 - r^2)^2: 1 in the middle; its value and slope are 0 from a distance of 1 on.
 template <class T>
-constexpr T brush(T r) {
+constexpr T biweight(T r) {
     const T inside = r * r < 1 ? 1 - r * r : T(0);
     return inside * inside;
 }
 template <class Lanes>
-INSONIFY_INLINE void clamp_lanes(Lanes& t) {
+INSONIFY_INLINE void saturate_lanes(Lanes& t) {
     const Lanes zero{}, one = zero + 1.0f;
     t = t > 0.0f ? t : zero;
     t = t < 1.0f ? t : one;

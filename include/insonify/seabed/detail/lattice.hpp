@@ -23,7 +23,7 @@ namespace seabed::detail::inline INSONIFY_FLAGS {
 
 using insonify::detail::lanes;
 
-/// Random streams: every layer of every model has its own.
+/// Random streams of the layers of models.
 enum class stream : std::uint32_t {
     sand = 0x5EAB0000,
     ripples,

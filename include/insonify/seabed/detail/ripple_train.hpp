@@ -39,9 +39,9 @@ class ripple_train {
     /// @param name  of the system, for errors
     ripple_train(const ripple_system& r, std::uint64_t seed, stream purpose, const std::string& name)
         : wavelength_(static_cast<double>(r.wavelength)), half_height_(r.height() / 2), sharpness_(r.sharpness) {
-        require_positive_metres(name + ".wavelength", r.wavelength);
+        require_range(name + ".wavelength", r.wavelength, 1e-4f, 1e6f, "metres, 0.0001 to 10^6");
         require_range(name + ".steepness", r.steepness, 0, 0.5f, "0 to 0.5");
-        require(numeric::is_finite(r.direction), name + ".direction", r.direction, "a finite angle");
+        insonify::detail::require_angle(name + ".direction", r.direction);
         require_range(name + ".spread", r.spread, 0, 0.5f, "0 to 0.5 radians");
         require_range(name + ".bandwidth", r.bandwidth, 0, 0.25f, "0 to 0.25");
         require_range(name + ".sharpness", r.sharpness, 0, 0.9f, "0 to 0.9");
@@ -127,7 +127,7 @@ class ripple_train {
         return side * 2.449489742783178;
     }
 
-    /// The envelope at `count` points of the lattice; writes whole vectors.
+    /// The envelope at `count` points of the lattice.
     template <int N>
     INSONIFY_INLINE void envelope(float* re, float* im, std::int64_t from, double y, std::size_t count) const {
         for (std::size_t done = 0; done < count;) {

@@ -85,7 +85,7 @@ class round_marks {
             lanes<float, N> dx, inside, sum;
             offsets<N>(dx, &part.x[i], l.frequency, -left);
             inside = 1.0f - (dx * dx + y_square) * inverse_square;
-            clamp_lanes(inside);
+            saturate_lanes(inside);
             insonify::detail::load(sum, values + i);
             sum = sum + height * inside * inside;
             insonify::detail::store(values + i, sum);

@@ -104,10 +104,10 @@ class trawl_furrows {
         const lattice_coordinate u(along * f.per_length + static_cast<double>(bits) * 0x1p-32);
         const cell_hash::row presence = hash_[static_cast<std::int64_t>((std::uint64_t{bits} << 8) + n + 64)];
         const auto present = [&](std::int64_t cell) { return (presence(cell) & 1) != 0 ? 1.0f : 0.0f; };
-        const float strength = mix(present(u.cell), present(u.cell + 1), fade(clamp01(8 * u.fraction - 7)));
+        const float strength = lerp(present(u.cell), present(u.cell + 1), fade(saturate(8 * u.fraction - 7)));
         // A bowl down to -1 that rises to a berm of 0.3, which ends at twice the half width.
-        const float inner = clamp01(1 - off * off);
-        return depth_ * strength * (off < 1 ? 0.3f - 1.3f * inner * inner : 0.3f * fade(clamp01(2 - off)));
+        const float inner = saturate(1 - off * off);
+        return depth_ * strength * (off < 1 ? 0.3f - 1.3f * inner * inner : 0.3f * fade(saturate(2 - off)));
     }
 
     dynamic_array<family> families_;

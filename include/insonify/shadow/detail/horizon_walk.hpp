@@ -111,12 +111,12 @@ class horizon_walk {
     }
 
   private:
-    static constexpr double nothing = -std::numeric_limits<double>::infinity();
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
 
     /// u on the edges that the ray crosses in one column of cells.
     struct crossing {
-        double lowest = -nothing, highest = nothing;
-        double certain = nothing;  ///< the largest u that certainly lies before the point
+        double lowest = infinity, highest = -infinity;
+        double certain = -infinity;  ///< the largest u that certainly lies before the point
     };
 
     double row_at(double column) const { return w_ + grid_.slope * column; }
@@ -131,7 +131,8 @@ class horizon_walk {
             return false;
         for (const double x : {x_ - beside_, x_ + beside_})
             for (int row = clamped_row(y - beside_); row <= clamped_row(y + beside_); ++row)
-                if (!(highest(static_cast<int>(x), row, row) < u_ - horizon_.margin())) return false;
+                if (!(highest((std::min)(static_cast<int>(x), grid_.columns - 2), row, row) < u_ - horizon_.margin()))
+                    return false;
         return true;
     }
     /// The largest u of the corners of some cells of a column.
@@ -146,14 +147,14 @@ class horizon_walk {
     /// @param is_above  the ray begins on or over the surface, so that it meets whatever rises above it
     template <class Decide>
     bool walk(bool is_above, const Decide& decide) const {
-        const double doubt = u_ - horizon_.margin();
+        const double u_lower_bound = u_ - horizon_.margin();
         const auto greatest = static_cast<double>(horizon_.heights().greatest);
         if (!(x_ + beside_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
         int column = static_cast<int>((std::min)(x_ + beside_, static_cast<double>(grid_.columns - 2)));
         for (bool is_first = true; column >= 0; --column, is_first = false) {
             // Rows of cells that the ray crosses in this column.
             const double low = row_at(column), high = low + grid_.slope;
-            if (high < -beside_ || column + 1 + grid_.drop * greatest < doubt) return false;
+            if (high < -beside_ || column + 1 + grid_.drop * greatest < u_lower_bound) return false;
             if (!is_first && is_above) {
                 const decision rest = decide_before(column);
                 if (rest != decision::undecided) return rest == decision::dark;
@@ -162,17 +163,17 @@ class horizon_walk {
                 const int before = column - (block_heights::side - 1);
                 const float highest_before = blocks_.highest(
                     before / block_heights::side, clamped_row(row_at(before) - beside_), clamped_row(high + beside_));
-                if (static_cast<double>(highest_before) < doubt) {
+                if (static_cast<double>(highest_before) < u_lower_bound) {
                     column = before;
                     continue;
                 }
             }
             if (low > grid_.rows - 1 + beside_) continue;
             const int first_row = clamped_row(low - beside_), last_row = clamped_row(high + beside_);
-            if (highest(column, first_row, last_row) < doubt) continue;
+            if (highest(column, first_row, last_row) < u_lower_bound) continue;
             const double limit = is_first && is_above ? x_ - column : 2;
             const crossing crossed = cross(column, limit);
-            if (crossed.highest < doubt) continue;
+            if (crossed.highest < u_lower_bound) continue;
             const bool is_inside = low >= beside_ && high <= grid_.rows - 1 - beside_;
             if (is_above && is_inside && crossed.certain > u_ + horizon_.margin()) return true;
             if (!is_above && crossed.lowest > u_ + horizon_.margin()) continue;

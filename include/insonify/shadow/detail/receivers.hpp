@@ -22,7 +22,9 @@ using insonify::detail::dynamic_array;
 class batch_index {
   public:
     batch_index() = default;
-    batch_index(std::size_t batch, std::size_t point) : value_(static_cast<std::uint32_t>(batch * max_batch + point)) {}
+    batch_index(std::size_t batch, std::size_t point) : value_(static_cast<std::uint32_t>(batch * max_batch + point)) {
+        INSONIFY_ASSERT(batch < max_batches && point < max_batch);
+    }
 
     std::size_t batch() const { return value_ / max_batch; }
     std::size_t point() const { return value_ % max_batch; }

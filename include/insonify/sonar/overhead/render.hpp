@@ -5,10 +5,10 @@
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/raster/draw.hpp>
 #include <insonify/shadow/exact.hpp>
+#include <insonify/sonar/detail/casting_ground.hpp>
 #include <insonify/sonar/detail/checked_materials.hpp>
 #include <insonify/sonar/overhead/detail/picture_casters.hpp>
 #include <insonify/sonar/overhead/detail/sampled_bottom.hpp>
-#include <insonify/sonar/overhead/detail/seabed_reach.hpp>
 #include <insonify/sonar/overhead/detail/shadow_pass.hpp>
 #include <insonify/sonar/overhead/picture.hpp>
 
@@ -52,7 +52,7 @@ class overhead_painter {
             if (has_bottom()) casters.push_back(as_caster(view_, bottom_in_rig_));
             const shadow::point_bounds bounds{receivers(), view_.ground_sampling(), options_.level};
             const auto occlusion =
-                options_.shadow.build(std::span<const shadow::caster>(casters), light_in_rig(view_), bounds, ex);
+                options_.shadow.build(std::span<const shadow::caster>(casters), view_.light_source(), bounds, ex);
             const auto known = decide_triangles(occlusion, ex);
             draw_all(ex);
             shadow_pass<Labels>(view_, surfaces_, {undecided_, out_.image, out_.labels}, targets_.size(), options_.tile,
@@ -94,6 +94,7 @@ class overhead_painter {
     template <executor E>
     void sample_seabed(E& ex) {
         const overhead& rig = view_.rig();
+        seabed::detail::require_position("overhead.position", rig.position);
         const double longer_side = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y);
         const int longer = (std::max)(rig.size.x, rig.size.y);
         const double spacing = options_.cell > 0 ? options_.cell : longer_side / ((longer + 1) / 2);
@@ -103,7 +104,15 @@ class overhead_painter {
         seabed::detail::require_finite(range);
         const double longest = static_cast<double>(options_.reach) * longer_side;
         ground_rect ground = shown_ground(view_, range);
-        if constexpr (casts) ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
+        if constexpr (casts) {
+            const bool is_near = view_.has_near_light();
+            const glm::dmat3 along_world_axes = glm::transpose(view_.rig_from({}).linear);
+            ground = casting_ground(
+                ground, range, shadow::radius_of(options_.shadow), longest, is_near, [&](const glm::dvec2& beside) {
+                    return numeric::product(along_world_axes,
+                                            is_near ? view_.light_position(beside) : view_.toward_light(beside));
+                });
+        }
         bottom_.sample(scene_.seabed, rig.position, ground, spacing, ex);
         const image<float>& heights = bottom_.field().heights;
         out_.stats.seabed_samples = heights.size();
@@ -142,7 +151,7 @@ class overhead_painter {
             s.caster = caster;
             s.instance = instance;
             s.seabed = seabed;
-            s.self_shadow_label = shadow_label(caster, targets_.size());
+            s.self_shadow_label = labels::of_caster(caster, targets_.size());
             s.whole = m;
             ids += placed.shape.triangles.size();
             require(ids < shadow::invalid_id, "triangles of the scene", ids, "below 2^32 - 1");

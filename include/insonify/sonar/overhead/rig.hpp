@@ -42,14 +42,14 @@ inline void validate(const overhead& rig) {
     using detail::require, detail::require_not_negative, detail::require_range;
     detail::require_finite("overhead.position", rig.position);
     detail::require_positive("overhead.altitude", rig.altitude);
-    require(numeric::is_finite(rig.yaw), "overhead.yaw", rig.yaw, "a finite angle");
+    detail::require_angle("overhead.yaw", rig.yaw);
     require(rig.field_of_view > 0 && static_cast<double>(rig.field_of_view) < numeric::to_radians(179.9),
             "overhead.field_of_view", rig.field_of_view, "above 0 and below 179.9 degrees, in radians");
     require_range("overhead.size.x", rig.size.x, 1, 32768, "1 to 32768");
     require_range("overhead.size.y", rig.size.y, 1, 32768, "1 to 32768");
-    require(rig.grazing > 0 && static_cast<double>(rig.grazing) <= numeric::pi / 2 + 1e-6, "overhead.grazing",
+    require(rig.grazing > 0 && static_cast<double>(rig.grazing) <= numeric::pi / 2 + 1e-7, "overhead.grazing",
             rig.grazing, "above 0 and at most pi / 2");
-    require(numeric::is_finite(rig.light_azimuth), "overhead.light_azimuth", rig.light_azimuth, "a finite angle");
+    detail::require_angle("overhead.light_azimuth", rig.light_azimuth);
     require(rig.light_distance > 0, "overhead.light_distance", rig.light_distance, "above 0 metres");
     require_not_negative("overhead.intensity", rig.intensity);
     require_not_negative("overhead.sky", rig.sky);
@@ -74,6 +74,11 @@ class overhead_geometry {
 
     const overhead& rig() const { return rig_; }
     const shadow::light_frame& light() const { return light_; }
+    /// The light, for shadow policies.
+    shadow::any_light light_source() const {
+        if (has_near_light()) return shadow::point_light{light_position()};
+        return shadow::directional_light{numeric::widened(rig_.light_azimuth), numeric::widened(rig_.grazing)};
+    }
     /// Direction from the datum below the camera to a point of the light, in units of the distance to its centre;
     /// `beside` is the offset from the centre, across and up, in the same unit.
     glm::dvec3 toward_light(const glm::dvec2& beside) const {

@@ -51,7 +51,7 @@ inline namespace INSONIFY_FLAGS {
 /// @param s        the seabed and its targets
 /// @param track    pings in order; row i of the result is ping i
 /// @param rig      ranges, side and ping spacing; its own track is ignored. Its altitude is nominal: the default `cell`
-///                 and the noise of ground ranges go by it
+///                 and, in ground range, the width of the horizontal beam go by it
 /// @param options  labels, backscatter law and sonar equation by type; sampling of the seabed
 /// @param ex       runs it; the result is the same bytes for any executor
 /// @throws invalid_input for a rig, a ping, a seabed, a material, a pose or an option out of range

@@ -37,10 +37,10 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input for a value out of range
 inline void validate(const ping& p) {
     detail::require_finite("ping.position", p.position);
-    detail::require_finite("ping.yaw", p.yaw);
+    detail::require_angle("ping.yaw", p.yaw);
     detail::require(numeric::abs(p.pitch) <= numeric::to_radians(80), "ping.pitch", p.pitch,
                     "at most 80 degrees, in radians");
-    detail::require_finite("ping.roll", p.roll);
+    detail::require_angle("ping.roll", p.roll);
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -82,7 +82,7 @@ void validate(const side_scan_rig<Axis>& rig) {
     using detail::require, detail::require_range;
     detail::require_finite("side_scan.position", rig.position);
     detail::require_finite("side_scan.altitude", rig.altitude);
-    detail::require_finite("side_scan.yaw", rig.yaw);
+    detail::require_angle("side_scan.yaw", rig.yaw);
     detail::require_positive("side_scan.ping_spacing", rig.ping_spacing);
     require_range("side_scan.pings", rig.pings, 1, 1 << 20, "1 to 2^20");
     detail::require_not_negative("side_scan.first_range", rig.first_range);

@@ -144,7 +144,7 @@ inline void validate(const absorption& a) {
 inline void validate(const vertical_beam& b) {
     detail::require(b.beamwidth > 0 && numeric::is_finite(b.beamwidth), "vertical_beam.beamwidth", b.beamwidth,
                     "radians above 0");
-    detail::require_finite("vertical_beam.tilt", b.tilt);
+    detail::require_angle("vertical_beam.tilt", b.tilt);
     detail::require_not_negative("vertical_beam.side_lobes", b.side_lobes);
 }
 inline void validate(const horizontal_beam& b) {
@@ -181,6 +181,8 @@ concept range_part = requires(const P& p) {
 template <class P>
 concept footprint_part = requires(const P& p) {
     { p.footprint(1.0) } -> std::convertible_to<double>;
+    { p.reach(1.0) } -> std::convertible_to<double>;
+    { p.pattern(0.0, 1.0) } -> std::convertible_to<double>;
 };
 template <class P>
 concept pulse_part = requires(const P& p) {
@@ -196,7 +198,7 @@ concept gain_part = requires(const P& p, const flat_echo& e, double (*level)(dou
 };
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// A part of the sonar equation: one of the above, or your own type with one of their functions.
+/// A part of the sonar equation: one of the above, or your own type with the functions of one of them.
 template <class P>
 concept equation_part = detail::direction_part<P> || detail::range_part<P> || detail::footprint_part<P> ||
     detail::pulse_part<P> || detail::noise_part<P> || detail::gain_part<P>;

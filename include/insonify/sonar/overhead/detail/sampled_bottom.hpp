@@ -1,12 +1,12 @@
 // The seabed of an overhead picture: sampled on a grid, as a mesh in the rig's frame.
 #pragma once
 
+#include <insonify/geometry/bounds.hpp>
 #include <insonify/geometry/mesh.hpp>
 #include <insonify/geometry/regular_grid.hpp>
 #include <insonify/seabed/any.hpp>
 #include <insonify/seabed/sample.hpp>
 #include <insonify/seabed/tessellate.hpp>
-#include <insonify/sonar/overhead/detail/seabed_reach.hpp>
 #include <insonify/sonar/overhead/detail/shading.hpp>
 
 #include <algorithm>
@@ -19,6 +19,15 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
+
+/// The ground that may be in view, relative to the rig's position.
+inline ground_rect shown_ground(const overhead_geometry& view, const seabed::height_range& range) {
+    ground_rect shown;
+    for (const int right : {-1, 1})
+        for (const int up : {-1, 1})
+            for (const double height : {range.lowest, range.highest}) shown.include(view.corner(height, right, up));
+    return shown;
+}
 
 /// Sampled heights and their mesh; empty until `sample` is called.
 class sampled_bottom {

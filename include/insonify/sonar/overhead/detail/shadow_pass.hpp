@@ -7,7 +7,6 @@
 
 #include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/image.hpp>
-#include <insonify/sonar/detail/shadow_terms.hpp>
 #include <insonify/sonar/overhead/detail/point_pass.hpp>
 #include <insonify/sonar/overhead/detail/undecided_light.hpp>
 
@@ -131,19 +130,22 @@ class shadow_pass {
     /// @param undecided  number of points of each tile
     template <class Occlusion, executor E>
     void test_together(const Occlusion& occlusion, const dynamic_array<std::size_t>& undecided, E& ex) {
-        dynamic_array<std::size_t> starts{0};  // of the points of each run of tiles
+        // Tiles share a list, and more of them in large pictures, so that batches stay within their number: a list has
+        // up to two.
+        const std::size_t tiles = (std::max)(run_, tiles_.count() / (shadow::max_batches / 2) + 1);
+        dynamic_array<std::size_t> starts{0};  // of the points of each list
         for (std::size_t i = 0; i < tiles_.count(); ++i) {
-            if (i % run_ == 0) starts.push_back(starts.back());
+            if (i % tiles == 0) starts.push_back(starts.back());
             starts.back() += undecided[i];
         }
         point_batch all(starts.back(), memory_of(ex));
         light_arrays light(starts.back(), memory_of(ex));
         dynamic_array<point_list> lists;
         for (std::size_t i = 0; i + 1 < starts.size(); ++i) lists.push_back({all, starts[i], starts[i + 1]});
-        bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
+        bulk_ranges(ex, tiles_.count(), tiles, [&](std::size_t first, std::size_t last) {
             shown_by_surface shown(surfaces_.size());
             for (std::size_t i = first; i < last; ++i)
-                if (undecided[i] > 0) find_points(i, shown, lists[first / run_]);
+                if (undecided[i] > 0) find_points(i, shown, lists[first / tiles]);
         });
         const auto part = [&](std::size_t i) { return light.part(starts[i], lists[i].size()); };
         dynamic_array<shadow::points> at;
@@ -175,7 +177,8 @@ class shadow_pass {
             if (is_facing && !(lit < 0.5f)) return;
             if (!is_facing && caster >= targets_) caster = own;
             // A point without a caster is not tested yet.
-            if (caster != shadow::invalid_id) images_.labels.shadow.pixels()[pixel] = shadow_label(caster, targets_);
+            if (caster != shadow::invalid_id)
+                images_.labels.shadow.pixels()[pixel] = labels::of_caster(caster, targets_);
         }
     }
 

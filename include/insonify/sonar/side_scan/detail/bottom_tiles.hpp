@@ -7,6 +7,7 @@
 #include <insonify/core/executor.hpp>
 #include <insonify/seabed/any.hpp>
 #include <insonify/seabed/detail/lattice.hpp>
+#include <insonify/seabed/detail/rise.hpp>
 #include <insonify/sonar/side_scan/side_scan.hpp>
 
 #include <memory>
@@ -62,7 +63,7 @@ class bottom_tiles {
     /// vertex.
     bottom_vertex at(double x, double y) const {
         if (is_empty_) return {std::numeric_limits<float>::quiet_NaN(), 0, 0, 0};
-        const double u = x * scale_, v = y * scale_;
+        const double u = x * scale_, v = y * scale_;  // as in tile_of: marked tiles are those looked up
         const std::int64_t cell_x = numeric::floor_to_int(u), cell_y = numeric::floor_to_int(v);
         const auto right = static_cast<float>(u - static_cast<double>(cell_x));
         const auto up = static_cast<float>(v - static_cast<double>(cell_y));
@@ -109,8 +110,8 @@ class bottom_tiles {
     double side() const { return cells * spacing_; }
 
     std::pair<std::int64_t, std::int64_t> tile_of(const glm::dvec2& p) const {
-        require(p.x > -1e9 && p.x < 1e9 && p.y > -1e9 && p.y < 1e9, "ping.position", p.x, "within 1e9 metres");
-        return {numeric::floor_to_int(p.x / side()), numeric::floor_to_int(p.y / side())};
+        for (const double c : {p.x, p.y}) require(c > -1e9 && c < 1e9, "ping.position", c, "within 1e9 metres");
+        return {numeric::floor_to_int(p.x * scale_) >> shift, numeric::floor_to_int(p.y * scale_) >> shift};
     }
 
     /// Clears the slots of the rectangle of tiles around all fans.
@@ -128,7 +129,9 @@ class bottom_tiles {
         }
         columns_ = last_x - first_x_ + 1;
         rows_ = last_y - first_y_ + 1;
-        require(columns_ * rows_ < (1 << 26), "seabed tiles", columns_ * rows_, "below 2^26: take larger cells");
+        const std::int64_t most = 1 << 26;
+        require(columns_ < most && rows_ < most && columns_ * rows_ < most, "seabed tiles",
+                static_cast<double>(columns_) * static_cast<double>(rows_), "below 2^26: take larger cells");
         slots_.assign(static_cast<std::size_t>(columns_ * rows_), absent);
     }
 
@@ -205,17 +208,17 @@ class bottom_tiles {
                 std::span(heights).subspan(j * width, width), std::span(types).subspan(j * width, width));
         }
         const auto scale = static_cast<float>(0.5 * scale_);
-        const auto slope = [&](float before, float after) {
-            const float rise = scale * (after - before);
-            return numeric::is_finite(rise) ? rise : 0.0f;  // next to a gap
+        const auto slope = [&](float before, float at, float after) {
+            return scale * seabed::detail::rise(before, at, after);
         };
         for (std::size_t tile = 0; tile < run.count; ++tile) {
             bottom_vertex* out = &vertices_[(run.slot + tile) * tile_size];
             for (std::size_t j = 0; j < stride; ++j) {
                 const std::size_t start = (j + 1) * width + tile * cells + 1;
                 for (std::size_t i = start; i < start + stride; ++i)
-                    *out++ = {heights[i], slope(heights[i - 1], heights[i + 1]),
-                              slope(heights[i - width], heights[i + width]), static_cast<std::uint32_t>(types[i])};
+                    *out++ = {heights[i], slope(heights[i - 1], heights[i], heights[i + 1]),
+                              slope(heights[i - width], heights[i], heights[i + width]),
+                              static_cast<std::uint32_t>(types[i])};
             }
         }
     }

@@ -22,6 +22,26 @@ inline double default_cell(const range_bins& window) {
                       (std::min)(picture, static_cast<double>(window.altitude) / 50));
 }
 
+/// One factor for each bin, computed anew where a ping's altitude differs from that of the last.
+class bin_factors {
+  public:
+    /// @param factor  factor(bin): at this altitude
+    template <class Factor>
+    std::span<const float> at(double altitude, int bins, const Factor& factor) {
+        if (values_.empty() || altitude != altitude_) {
+            altitude_ = altitude;
+            values_.clear();
+            for (std::size_t b = 0; b < static_cast<std::size_t>(bins); ++b)
+                values_.push_back(static_cast<float>(factor(b)));
+        }
+        return values_;
+    }
+
+  private:
+    dynamic_array<float> values_;
+    double altitude_ = 0;
+};
+
 /// A recording under construction.
 template <class Labels, class Law>
 class recorder {
@@ -33,6 +53,8 @@ class recorder {
         : scene_(s), track_(track), window_(window), options_(options), equation_(options.equation) {
         materials_ = checked_materials(s, options);
         for (const ping& p : track) validate(p);
+        require(equation_.pulse_length() <= window.bins * window.bin(), "pulse.length", equation_.pulse_length(),
+                "at most the metres of range that are recorded");
         out_.rows.side = window.looks;
         out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(window));
         targets_ = sliced_targets(s);
@@ -73,11 +95,8 @@ class recorder {
         bottom_tiles bottom(scene_.seabed, out_.stats.cell);
         const seabed::height_range relief = scene_.seabed.prepare().range();
         const double cell = out_.stats.cell;
-        dynamic_array<float> over_range;
-        if (equation_.has_ranges())
-            for (std::size_t b = 0; b < static_cast<std::size_t>(window_.bins); ++b)
-                over_range.push_back(static_cast<float>(
-                    equation_.over_range(slant_of(b, static_cast<double>(window_.altitude)), spacing())));
+        bin_factors first_losses;  // for all pings if the track is level
+        if (!track_.empty()) losses_at(track_.front(), first_losses);
         for (std::size_t start = 0; start < track_.size(); start += leg) {
             const std::size_t count = (std::min)(leg, track_.size() - start);
             dynamic_array<ping_frame> frames;
@@ -90,18 +109,29 @@ class recorder {
             bulk_ranges(ex, count, grain, [&](std::size_t from, std::size_t to) {
                 tracer pings(scene_, materials_, targets_, bottom, window_, options_.law, equation_, cell, relief,
                              begin);
-                for (std::size_t i = from; i < to; ++i) write(start + i, pings.trace(frames[i]), over_range);
+                bin_factors losses = first_losses;
+                for (std::size_t i = from; i < to; ++i)
+                    write(start + i, pings.trace(frames[i]), losses_at(track_[start + i], losses));
             });
         }
         out_.stats.seabed_samples = bottom.sampled();
     }
 
+    /// Factors on the power of a ping's bins by range, if any part has some. Bins of time have the same slant ranges at
+    /// any altitude.
+    std::span<const float> losses_at(const ping& p, bin_factors& losses) const {
+        if (!equation_.has_ranges()) return {};
+        const double altitude = window_.counts_time ? 0 : p.position.z;
+        return losses.at(altitude, window_.bins,
+                         [&](std::size_t b) { return equation_.over_range(slant_of(b, altitude), spacing()); });
+    }
+
     /// Writes the row of one ping.
-    void write(std::size_t number, std::span<const echo_bin> bins, std::span<const float> over_range) {
+    void write(std::size_t number, std::span<const echo_bin> bins, std::span<const float> losses) {
         const int row = static_cast<int>(number);
         const auto power = out_.image.row(row);
         for (std::size_t b = 0; b < bins.size(); ++b) power[b] = bins[b].bottom + bins[b].target;
-        for (std::size_t b = 0; b < over_range.size(); ++b) power[b] *= over_range[b];
+        for (std::size_t b = 0; b < losses.size(); ++b) power[b] *= losses[b];
         convolve_pulse(power, equation_.pulse_length() / window_.bin());
         if constexpr (labelled) {
             const auto instance = out_.labels.instance.row(row), shadow = out_.labels.shadow.row(row);
@@ -168,16 +198,13 @@ class recorder {
     void amplify(executor_ref ex) {
         const auto noise = static_cast<float>(equation_.noise());
         bulk_ranges(ex, track_.size(), 64, [&](std::size_t from, std::size_t to) {
-            dynamic_array<float> gain;
-            double altitude = 0;
+            bin_factors gains;
             for (std::size_t i = from; i < to; ++i) {
-                if (gain.empty() || track_[i].position.z != altitude) {
-                    altitude = track_[i].position.z;
-                    gain.clear();
-                    for (std::size_t b = 0; b < static_cast<std::size_t>(window_.bins); ++b)
-                        gain.push_back(static_cast<float>(equation_.gain(
-                            {slant_of(b, altitude), altitude, window_.bin(), spacing(), window_.counts_time})));
-                }
+                const double altitude = track_[i].position.z;
+                const auto gain = gains.at(altitude, window_.bins, [&](std::size_t b) {
+                    return equation_.gain(
+                        {slant_of(b, altitude), altitude, window_.bin(), spacing(), window_.counts_time});
+                });
                 const auto row = out_.image.row(static_cast<int>(i));
                 for (std::size_t b = 0; b < row.size(); ++b) row[b] = (row[b] + noise) * gain[b];
             }

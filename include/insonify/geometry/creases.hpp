@@ -23,12 +23,13 @@ inline namespace INSONIFY_ABI {
 inline namespace INSONIFY_FLAGS {
 
 /// The same triangles with unit normals. A corner's normal is the mean of the facets around its position that bend away
-/// from its own facet by less than `angle`, so a position has as many vertices as sides of it look different.
-/// Facets without area keep their corners, with +z as normal.
-/// @param angle  radians; 0 makes every facet flat
-/// @throws invalid_input if an index has no position
+/// from its own facet by less than `angle`; a position becomes one vertex for each distinct normal. Facets without area
+/// keep their corners, with +z as normal.
+/// @param angle  radians, 0 to pi; 0 makes every facet flat
+/// @throws invalid_input if an index has no position, or for an angle out of range
 inline mesh with_creases(const mesh& m, float angle = 0.7f) {
     validate(m);
+    detail::require_range("angle", angle, 0, static_cast<float>(numeric::pi), "0 to pi radians");
     const double smoothest = numeric::sin_cos(static_cast<double>(angle)).cosine;
     const std::vector<std::uint32_t> first = weld(m.positions);
 
@@ -64,9 +65,12 @@ inline mesh with_creases(const mesh& m, float angle = 0.7f) {
         const auto fan = out.positions.size();
         for (std::size_t i = begin; i < end; ++i) {
             glm::dvec3 sum(0);
-            for (std::size_t j = begin; j < end; ++j)
-                if (i == j || numeric::dot(facets[corners[i].triangle], facets[corners[j].triangle]) > smoothest)
+            const glm::dvec3& facet = facets[corners[i].triangle];
+            for (std::size_t j = begin; j < end && facet != glm::dvec3(0); ++j) {
+                const glm::dvec3& other = facets[corners[j].triangle];
+                if (i == j || (other != glm::dvec3(0) && numeric::dot(facet, other) > smoothest))
                     sum += corners[j].weighted;
+            }
             const double length = numeric::square_root(numeric::dot(sum, sum));
             const glm::vec3 normal = length > 0 ? glm::vec3(sum / length) : glm::vec3(0, 0, 1);
             std::size_t vertex = fan;
