@@ -7270,6 +7270,7 @@ inline std::string file_bytes(const std::string& path) {
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #endif
 
@@ -7289,6 +7290,17 @@ inline bool sync_to_disk(std::FILE* stream) {
     return ::fsync(::fileno(stream)) == 0;
 #else
     return true;
+#endif
+}
+
+/// Whether a path names a device, a pipe or a folder, which a new file must not replace.
+inline bool is_special(const std::string& path) {
+#if defined(__unix__) || defined(__APPLE__)
+    struct stat found;
+    return ::lstat(path.c_str(), &found) == 0 && !S_ISREG(found.st_mode) && !S_ISLNK(found.st_mode);
+#else
+    static_cast<void>(path);
+    return false;
 #endif
 }
 
@@ -7340,8 +7352,9 @@ inline std::string read_file(const std::string& path) {
 /// path do not collide; the last to commit wins.
 class replacement_file {
   public:
-    /// @throws io_error if no file can be created in the folder of `path`
+    /// @throws io_error if no file can be created in the folder of `path`, or `path` is a device, a pipe or a folder
     explicit replacement_file(std::string path) : path_(std::move(path)) {
+        if (detail::is_special(path_)) detail::raise_io(path_, "can't open for writing: not a regular file");
         for (int number = 0; file_.get() == nullptr; ++number) {
             temporary_ = path_ + ".tmp" + detail::to_text(number);
             errno = 0;
@@ -9075,9 +9088,9 @@ namespace seabed {
 struct trawl_marks {
     float density = 0;    ///< furrows per metre that one crosses, in [0, 1 / (4 width)]; 0 for none
     float depth = 0.06f;  ///< metres, >= 0
-    float width = 0.5f;   ///< metres, > 0: between the tops of the berms
+    float width = 0.5f;   ///< metres, from 0.001: between the tops of the berms
     int directions = 2;   ///< 1 to 8: number of directions of towing
-    float length = 150;   ///< metres, > 0: typical length of a furrow
+    float length = 150;   ///< metres, from 0.001: typical length of a furrow
 
     friend bool operator==(const trawl_marks&, const trawl_marks&) = default;
 };
@@ -9472,12 +9485,12 @@ class trawl_furrows {
   public:
     trawl_furrows(const trawl_marks& t, std::uint64_t seed)
         : depth_(t.depth), width_(static_cast<double>(t.width)), hash_(seed, stream::trawls) {
-        require_positive_metres("trawl_marks.width", t.width);
+        require_range("trawl_marks.width", t.width, 1e-3f, 1e6f, "metres from 0.001");
         require(t.density >= 0 && 4 * t.density * t.width <= 1, "trawl_marks.density", t.density,
                 "0 to 1 / (4 width) per metre");
         require_metres("trawl_marks.depth", t.depth);
         require_range("trawl_marks.directions", t.directions, 1, 8, "1 to 8");
-        require_positive_metres("trawl_marks.length", t.length);
+        require_range("trawl_marks.length", t.length, 1e-3f, 1e6f, "metres from 0.001");
         if (t.density == 0 || t.depth == 0) return;
         random_sequence draw(seed, static_cast<std::uint32_t>(stream::trawls));
         const double turn = draw.uniform();
@@ -9589,7 +9602,7 @@ namespace seabed {
 struct mud {
     roughness surface{.rms = 0.008f, .longest = 4, .shortest = 0.06f};
     float density = 0.2f;        ///< mounds and pock marks per square metre, at most 1 / (4 size)^2; 0 for none
-    float size = 0.35f;          ///< metres, > 0: radius of the largest; the smallest have 0.4 of it
+    float size = 0.35f;          ///< metres, from 0.001: radius of the largest; the smallest have 0.4 of it
     float mound_height = 0.04f;  ///< metres, >= 0: of the largest mounds
     float pock_depth = 0.04f;    ///< metres, >= 0: of the largest pock marks
     float pock_share = 0.4f;     ///< in [0, 1]: fraction of them that are pock marks
@@ -9613,7 +9626,7 @@ class mud_sampler {
   public:
     explicit mud_sampler(const mud& m) : surface_(m.surface, m.seed, detail::stream::mud), trawls_(m.trawls, m.seed) {
         const float cell = 4 * m.size;
-        detail::require_positive_metres("mud.size", m.size);
+        detail::require_range("mud.size", m.size, 1e-3f, 1e6f, "metres from 0.001");
         detail::require(m.density >= 0 && m.density * cell * cell <= 1, "mud.density", m.density,
                         "0 to 1 / (4 size)^2 per square metre");
         detail::require_metres("mud.mound_height", m.mound_height);
@@ -17621,6 +17634,8 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
     detail::require_positive_metres("spacing", spacing);
     const auto axis = [&](double from, double to, const char* name) {
         detail::require(from >= -1e9 && to <= 1e9 && from <= to, name, to, "not below low, both within 1e9 metres");
+        detail::require(-from <= 0x1p53 * spacing && to <= 0x1p53 * spacing, "spacing", spacing,
+                        "at least 2^-53 of the distance to the origin");
         const std::int64_t first = numeric::floor_to_int(from / spacing);
         const std::int64_t last = (std::max)(-numeric::floor_to_int(-to / spacing), first + 1);
         detail::require(last - first < (1 << 30), name, to, "at most 2^30 vertices from low");
@@ -20301,7 +20316,8 @@ inline namespace INSONIFY_FLAGS {
 /// The parts: fuselage with tail, wings with engine nacelles, propellers. Reflectivities are illustrative: aluminium
 /// sheet 0.9, steel 1. Each part is solid, and so is the merged mesh.
 ///
-/// A whole aeroplane spans exactly `span`, and exactly `length` unless wing engines reach ahead of its nose.
+/// A whole aeroplane spans exactly `span` unless its propellers or tail reach beyond the wing, and is exactly `length`
+/// long unless wing engines reach ahead of its nose or swept tips behind its tail.
 /// @throws invalid_input as `validate` does
 inline compound to_compound(const aeroplane& a) {
     validate(a);
@@ -20523,6 +20539,7 @@ inline mesh to_mesh(const crate& c) {
     // Boards of the short sides and of lid and floor reach half way into those of the long sides.
     for (int i = 0; i < c.boards; ++i) {
         const auto [low, high] = part(i, 0, half.z);
+        const double trim = (std::min)(0.05 * t, 0.1 * (high - low));
         const auto [left, right] = part(i, -half.y + 1.1 * t, half.y - 1.1 * t);
         for (const double side : {-1.0, 1.0}) {
             const double outer = side * half.y, inner = side * (half.y - t);
@@ -20531,8 +20548,8 @@ inline mesh to_mesh(const crate& c) {
                                    {half.x, (std::max)(outer, inner), high});
             const double face = side * (half.x - 0.05 * t), back = side * (half.x - t);
             if (stays())
-                detail::append_box(body, {(std::min)(face, back), -half.y + 0.5 * t, low + 0.05 * t},
-                                   {(std::max)(face, back), half.y - 0.5 * t, high - 0.05 * t});
+                detail::append_box(body, {(std::min)(face, back), -half.y + 0.5 * t, low + trim},
+                                   {(std::max)(face, back), half.y - 0.5 * t, high - trim});
         }
         detail::append_box(body, {-half.x + 0.5 * t, left, 0.05 * t}, {half.x - 0.5 * t, right, t});
         if (stays() && !c.is_open)
@@ -22055,10 +22072,22 @@ class survey_reader {
         for (; at_ < text_.size() && is_blank(text_[at_]); ++at_) line_ += ends_line(at_) ? 1u : 0u;
         return word_here();
     }
-    /// The next word of this line; empty at its end.
-    std::string_view word_of_line() {
-        while (at_ < text_.size() && is_blank(text_[at_]) && !is_line_break(text_[at_])) ++at_;
-        return word_here();
+    /// A field of a line, and what stands before it: ',', ';' or, for blanks alone, ' '.
+    struct field {
+        std::string_view text;
+        char separator;
+    };
+    /// The next field of this line; empty at its end, and between two commas or semicolons.
+    field field_of_line() {
+        const auto skip_spaces = [&] {
+            while (at_ < text_.size() && is_blank(text_[at_]) && !is_line_break(text_[at_]) && !is_comma(text_[at_]))
+                ++at_;
+        };
+        skip_spaces();
+        char separator = ' ';
+        if (at_ < text_.size() && is_comma(text_[at_])) separator = text_[at_++];
+        skip_spaces();
+        return {word_here(), separator};
     }
     /// The next word, which is not consumed.
     std::string_view peek() {
@@ -22076,10 +22105,16 @@ class survey_reader {
     double number(std::string_view digits, const char* what) const {
         if (digits.empty())
             fail((at_ < text_.size() ? "the line ends before " : "the text ends before ") + std::string(what));
+        using insonify::detail::number_text;
         double value = 0;
-        if (insonify::detail::parse_number(digits, value) != insonify::detail::number_text::fine)
+        const number_text read = insonify::detail::parse_number(digits, value);
+        if (read == number_text::malformed)
             fail(insonify::detail::quoted(digits) + " is not a number, expected " + what);
-        return value;
+        if (read == number_text::fine) return value;
+        // The largest double in too few digits is a usual mark of missing data.
+        const bool is_tiny = digits.find("e-") != digits.npos || digits.find("E-") != digits.npos;
+        const double infinity = std::numeric_limits<double>::infinity();
+        return is_tiny ? 0 : digits[0] == '-' ? -infinity : infinity;
     }
     double finite(const char* what) {
         const double value = number(what);
@@ -22104,7 +22139,8 @@ class survey_reader {
     bool ends_line(std::size_t at) const {
         return text_[at] == '\n' || (text_[at] == '\r' && text_.substr(at + 1, 1) != "\n");
     }
-    static bool is_blank(char c) { return (c >= '\t' && c <= '\r') || c == ' ' || c == ',' || c == ';'; }
+    static bool is_comma(char c) { return c == ',' || c == ';'; }
+    static bool is_blank(char c) { return (c >= '\t' && c <= '\r') || c == ' ' || is_comma(c); }
 
     std::string_view text_, name_;
     std::size_t at_ = 0, line_ = 1;
@@ -22212,16 +22248,22 @@ struct grid_soundings {
 inline grid_soundings read_soundings(survey_reader& in, double spacing, float scale) {
     grid_soundings found;
     for (std::string_view first; !(first = in.word()).empty(); in.skip_line()) {
-        const bool is_number =
-            (first[0] >= '0' && first[0] <= '9') || first[0] == '-' || first[0] == '+' || first[0] == '.';
+        const std::size_t digit = first.find_first_not_of("+-.");
+        const bool is_number = digit <= 2 && first[digit] >= '0' && first[digit] <= '9';
         if (!is_number) {
             // Its rows of heights would be taken for positions.
             if (same_word(first, "ncols")) in.fail("this is an Esri ASCII grid: parse_esri_grid reads it");
             continue;
         }
-        const double x = in.number(first, "an x"), y = in.number(in.word_of_line(), "a y"),
-                     z = in.number(in.word_of_line(), "a z");
+        const survey_reader::field second = in.field_of_line(), third = in.field_of_line();
+        if (second.separator != third.separator && !third.text.empty())
+            in.fail("x, y and z are separated in two ways: are there decimal commas?");
+        const double x = in.number(first, "an x"), y = in.number(second.text, "a y");
+        if (third.text.empty() && third.separator != ' ') continue;  // an empty cell: no sounding
+        const double z = in.number(third.text, "a z");
         require_position(in, x, y);
+        if (numeric::abs(x) > 0x1p53 * spacing || numeric::abs(y) > 0x1p53 * spacing)
+            in.fail("a position is 2^53 spacings away: take a larger spacing");
         found.add({x, y}, static_cast<double>(scale) * z, spacing);
     }
     return found;
@@ -22278,11 +22320,13 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
 
 /// Reads soundings, an `x y z` on each line, onto a grid: each vertex has the mean of the soundings that are nearest to
 /// it, or NaN if there is none. x and y are metres: project longitudes and latitudes first, for example to UTM. Lines
-/// end with LF, CR LF or CR. Lines that do not begin with a number are skipped, and so is the rest of a line after z.
+/// end with LF, CR LF or CR. Lines that do not begin with a number or have an empty cell for z are skipped, and so is
+/// the rest of a line after z.
 /// @param spacing  metres between vertices, > 0; vertices are multiples of it
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors
-/// @throws io_error for a text without soundings, an Esri grid, a line of fewer than three numbers, soundings that span
+/// @throws io_error for a text without soundings, an Esri grid, a line of fewer than three numbers or with decimal
+///         commas, soundings that span
 ///         less than a spacing or crowd at a few vertices, as those in degrees do, or soundings so far apart that there
 ///         are more than 1024 vertices for each, or more than 2^26
 inline heightfield parse_xyz(std::string_view text, double spacing, float scale = 1, std::string_view name = "xyz") {
@@ -22322,25 +22366,34 @@ inline heightfield fill_gaps(heightfield field, int reach = 1 << 30) {
         int i, j;
         float value;
     };
-    std::vector<vertex> missing;
+    const auto for_neighbors = [&](int i, int j, const auto& fn) {
+        for (int y = (std::max)(j - 1, 0); y <= (std::min)(j + 1, height - 1); ++y)
+            for (int x = (std::max)(i - 1, 0); x <= (std::min)(i + 1, width - 1); ++x) fn(x, y);
+    };
+    // Only the neighbours of vertices that have just become known can be filled in a step.
+    image<std::uint8_t> is_candidate(width, height, std::uint8_t{0});
+    std::vector<vertex> candidates;
+    const auto add_around = [&](int i, int j) {
+        for_neighbors(i, j, [&](int x, int y) {
+            if (is_candidate(x, y) != 0 || numeric::is_finite(heights(x, y))) return;
+            is_candidate(x, y) = 1;
+            candidates.push_back({x, y, 0});
+        });
+    };
     for (int j = 0; j < height; ++j)
         for (int i = 0; i < width; ++i)
-            if (!numeric::is_finite(heights(i, j))) missing.push_back({i, j, 0});
-    for (int step = 0; step < reach && !missing.empty(); ++step) {
-        std::vector<vertex> filled, others;
-        for (const vertex& v : missing) {
+            if (numeric::is_finite(heights(i, j))) add_around(i, j);
+    for (int step = 0; step < reach && !candidates.empty(); ++step) {
+        for (vertex& v : candidates) {
             float sum = 0, count = 0;
-            for (int j = (std::max)(v.j - 1, 0); j <= (std::min)(v.j + 1, height - 1); ++j)
-                for (int i = (std::max)(v.i - 1, 0); i <= (std::min)(v.i + 1, width - 1); ++i)
-                    if (numeric::is_finite(heights(i, j))) sum += heights(i, j), count += 1;
-            if (count > 0)
-                filled.push_back({v.i, v.j, sum / count});
-            else
-                others.push_back(v);
+            for_neighbors(v.i, v.j, [&](int x, int y) {
+                if (numeric::is_finite(heights(x, y))) sum += heights(x, y), count += 1;
+            });
+            v.value = sum / count;
         }
-        if (filled.empty()) break;
+        const std::vector<vertex> filled = std::exchange(candidates, {});
         for (const vertex& v : filled) heights(v.i, v.j) = v.value;
-        missing = std::move(others);
+        for (const vertex& v : filled) add_around(v.i, v.j);
     }
     return field;
 }
@@ -22653,7 +22706,8 @@ class detailed_sampler {
     /// end, and columns overshoot the resulting 5/4 of the range by 1/8 again.
     height_range range() const {
         const height_range field = field_->prepare().range();
-        const double over = 0.2813 * (field.highest - field.lowest) + surface_.upper_bound();
+        const double over = 0.2813 * (field.highest - field.lowest) + surface_.upper_bound() +
+                            0x1p-21 * (std::max)(numeric::abs(field.lowest), numeric::abs(field.highest));  // rounding
         return field.empty() ? field : height_range{field.lowest - over, field.highest + over};
     }
 
@@ -22708,7 +22762,8 @@ inline namespace INSONIFY_ABI {
 namespace seabed {
 
 /// Scour by a current around a footprint, such as that of a target: `moat{.outline = footprint(mesh, pose, height)}`.
-/// The ground below the middle of the footprint keeps its height, so that the target still rests on it.
+/// Inside of the outline it ends at width / 2, so that the ground below the middle of a wide target keeps its height.
+/// Place targets first, by `rest_on` of the ground without the moat.
 struct moat {
     std::vector<glm::dvec2> outline{
         {-1, -1}, {1, -1}, {1, 1}, {-1, 1}};  ///< of the target on the ground, 3 to 4096 corners
@@ -22809,7 +22864,8 @@ struct flatten {
     float level = 0;   ///< metres above the datum
 };
 
-/// Removes relief shorter than one to two lengths.
+/// Removes relief shorter than one to two lengths; beside gaps the ground stays as it is. Evaluates 16 rows of the
+/// ground for one: where several overlap, each is 16 times as slow as the one before.
 struct smooth {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 1;      ///< metres, > 0: with its edge
@@ -22831,7 +22887,7 @@ struct stamp {
     float every = 0;               ///< metres along the path from mark to mark; 0: a continuous furrow
 };
 
-/// Sediment heaped up to a level, to half bury a target. Higher ground stays.
+/// Sediment heaped up to a level, to half bury a target. Higher ground stays, and so does ground 100 m below the level.
 struct heap {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 0.5f;  ///< metres, >= 0: of its level top
@@ -22891,7 +22947,8 @@ inline ground_rect ground_of(const ramp& e) {
     require_positive_metres("ramp.width", e.width);
     require_height("ramp.from_height", e.from_height);
     require_height("ramp.to_height", e.to_height);
-    require(e.from != e.to, "ramp.to", e.to.x, "another point than ramp.from");
+    const float run = length(e.to.x - e.from.x, e.to.y - e.from.y);
+    require(run >= 1e-3f, "distance of ramp.to from ramp.from", run, "metres from 0.001");
     return rect_around(std::array{e.from, e.to}, static_cast<double>(e.width));
 }
 inline ground_rect ground_of(const stamp& e) {
@@ -22899,7 +22956,7 @@ inline ground_rect ground_of(const stamp& e) {
     for (const glm::dvec2& p : e.path) require_position("stamp.path", p);
     require_positive_metres("stamp.radius", e.radius);
     require_height("stamp.height", e.height);
-    require_metres("stamp.every", e.every);
+    require(e.every == 0 || (e.every >= 1e-3f && e.every < 1e6f), "stamp.every", e.every, "0, or metres from 0.001");
     return rect_around(e.path, static_cast<double>(e.radius));
 }
 inline ground_rect ground_of(const heap& e) {
@@ -22969,18 +23026,24 @@ inline height_range added(const height_range& ground, double lowest, double high
 inline height_range including(const height_range& ground, double to) {
     return merge(ground, {to, to});
 }
+/// The range of floats interpolated between heights of a range: rounding may exceed it.
+inline height_range interpolated(const height_range& r) {
+    const double error = 0x1p-21 * (std::max)(numeric::abs(r.lowest), numeric::abs(r.highest));
+    return r.empty() ? r : height_range{r.lowest - error, r.highest + error};
+}
 inline height_range range_after(const raise& e, const height_range& ground) {
     return added(ground, static_cast<double>(e.height), static_cast<double>(e.height));
 }
 inline height_range range_after(const flatten& e, const height_range& ground) {
-    return including(ground, static_cast<double>(e.level));
+    return interpolated(including(ground, static_cast<double>(e.level)));
 }
 /// Means stay within the range.
 inline height_range range_after(const smooth&, const height_range& ground) {
-    return ground;
+    return interpolated(ground);
 }
 inline height_range range_after(const ramp& e, const height_range& ground) {
-    return including(including(ground, static_cast<double>(e.from_height)), static_cast<double>(e.to_height));
+    return interpolated(
+        including(including(ground, static_cast<double>(e.from_height)), static_cast<double>(e.to_height)));
 }
 inline height_range range_after(const stamp& e, const height_range& ground) {
     return added(ground, static_cast<double>(e.height), static_cast<double>(e.height));
@@ -23026,7 +23089,8 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
         const auto across = spline_weights(u.fraction);
         float even = 0;
         for (std::size_t n = 0; n < 16; ++n) even += across[n] * from[n];
-        heights[i] = lerp(heights[i], even, plateau(length(x - e.centre.x, line.y - e.centre.y) / e.radius));
+        if (numeric::is_finite(even))
+            heights[i] = lerp(heights[i], even, plateau(length(x - e.centre.x, line.y - e.centre.y) / e.radius));
     }
 }
 
@@ -23092,10 +23156,12 @@ class sculpt_sampler {
   private:
     /// The ground after the first `count` edits.
     void fill(std::size_t count, const scanline& line, std::span<float> heights, std::span<type> types) const {
-        if (count == 0) return ground_.row(line, heights, types);
-        fill(count - 1, line, heights, types);
-        const edit& current = edits_[count - 1].applied;
-        const detail::ground_rect& bounds = edits_[count - 1].bounds;
+        ground_.row(line, heights, types);
+        for (std::size_t i = 0; i < count; ++i) apply(i, line, heights);
+    }
+    void apply(std::size_t number, const scanline& line, std::span<float> heights) const {
+        const edit& current = edits_[number].applied;
+        const detail::ground_rect& bounds = edits_[number].bounds;
         if (line.y < bounds.lower.y || line.y > bounds.upper.y || heights.empty()) return;
         // The samples within its bounds.
         std::size_t begin = 0, end = heights.size();
@@ -23116,7 +23182,7 @@ class sculpt_sampler {
             [&](const auto& e) {
                 if constexpr (std::is_same_v<std::remove_cvref_t<decltype(e)>, smooth>)
                     detail::smooth_row(e, there, part, [&](const scanline& nodes, std::span<float> at_nodes) {
-                        fill(count - 1, nodes, at_nodes, {});
+                        fill(number, nodes, at_nodes, {});
                     });
                 else
                     for (std::size_t i = 0; i < part.size(); ++i)

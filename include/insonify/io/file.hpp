@@ -12,6 +12,7 @@
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #endif
 
@@ -31,6 +32,17 @@ inline bool sync_to_disk(std::FILE* stream) {
     return ::fsync(::fileno(stream)) == 0;
 #else
     return true;
+#endif
+}
+
+/// Whether a path names a device, a pipe or a folder, which a new file must not replace.
+inline bool is_special(const std::string& path) {
+#if defined(__unix__) || defined(__APPLE__)
+    struct stat found;
+    return ::lstat(path.c_str(), &found) == 0 && !S_ISREG(found.st_mode) && !S_ISLNK(found.st_mode);
+#else
+    static_cast<void>(path);
+    return false;
 #endif
 }
 
@@ -82,8 +94,9 @@ inline std::string read_file(const std::string& path) {
 /// path do not collide; the last to commit wins.
 class replacement_file {
   public:
-    /// @throws io_error if no file can be created in the folder of `path`
+    /// @throws io_error if no file can be created in the folder of `path`, or `path` is a device, a pipe or a folder
     explicit replacement_file(std::string path) : path_(std::move(path)) {
+        if (detail::is_special(path_)) detail::raise_io(path_, "can't open for writing: not a regular file");
         for (int number = 0; file_.get() == nullptr; ++number) {
             temporary_ = path_ + ".tmp" + detail::to_text(number);
             errno = 0;

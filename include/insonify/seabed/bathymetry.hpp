@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <limits>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -104,16 +105,22 @@ struct grid_soundings {
 inline grid_soundings read_soundings(survey_reader& in, double spacing, float scale) {
     grid_soundings found;
     for (std::string_view first; !(first = in.word()).empty(); in.skip_line()) {
-        const bool is_number =
-            (first[0] >= '0' && first[0] <= '9') || first[0] == '-' || first[0] == '+' || first[0] == '.';
+        const std::size_t digit = first.find_first_not_of("+-.");
+        const bool is_number = digit <= 2 && first[digit] >= '0' && first[digit] <= '9';
         if (!is_number) {
             // Its rows of heights would be taken for positions.
             if (same_word(first, "ncols")) in.fail("this is an Esri ASCII grid: parse_esri_grid reads it");
             continue;
         }
-        const double x = in.number(first, "an x"), y = in.number(in.word_of_line(), "a y"),
-                     z = in.number(in.word_of_line(), "a z");
+        const survey_reader::field second = in.field_of_line(), third = in.field_of_line();
+        if (second.separator != third.separator && !third.text.empty())
+            in.fail("x, y and z are separated in two ways: are there decimal commas?");
+        const double x = in.number(first, "an x"), y = in.number(second.text, "a y");
+        if (third.text.empty() && third.separator != ' ') continue;  // an empty cell: no sounding
+        const double z = in.number(third.text, "a z");
         require_position(in, x, y);
+        if (numeric::abs(x) > 0x1p53 * spacing || numeric::abs(y) > 0x1p53 * spacing)
+            in.fail("a position is 2^53 spacings away: take a larger spacing");
         found.add({x, y}, static_cast<double>(scale) * z, spacing);
     }
     return found;
@@ -170,11 +177,13 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
 
 /// Reads soundings, an `x y z` on each line, onto a grid: each vertex has the mean of the soundings that are nearest to
 /// it, or NaN if there is none. x and y are metres: project longitudes and latitudes first, for example to UTM. Lines
-/// end with LF, CR LF or CR. Lines that do not begin with a number are skipped, and so is the rest of a line after z.
+/// end with LF, CR LF or CR. Lines that do not begin with a number or have an empty cell for z are skipped, and so is
+/// the rest of a line after z.
 /// @param spacing  metres between vertices, > 0; vertices are multiples of it
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors
-/// @throws io_error for a text without soundings, an Esri grid, a line of fewer than three numbers, soundings that span
+/// @throws io_error for a text without soundings, an Esri grid, a line of fewer than three numbers or with decimal
+///         commas, soundings that span
 ///         less than a spacing or crowd at a few vertices, as those in degrees do, or soundings so far apart that there
 ///         are more than 1024 vertices for each, or more than 2^26
 inline heightfield parse_xyz(std::string_view text, double spacing, float scale = 1, std::string_view name = "xyz") {
@@ -214,25 +223,34 @@ inline heightfield fill_gaps(heightfield field, int reach = 1 << 30) {
         int i, j;
         float value;
     };
-    std::vector<vertex> missing;
+    const auto for_neighbors = [&](int i, int j, const auto& fn) {
+        for (int y = (std::max)(j - 1, 0); y <= (std::min)(j + 1, height - 1); ++y)
+            for (int x = (std::max)(i - 1, 0); x <= (std::min)(i + 1, width - 1); ++x) fn(x, y);
+    };
+    // Only the neighbours of vertices that have just become known can be filled in a step.
+    image<std::uint8_t> is_candidate(width, height, std::uint8_t{0});
+    std::vector<vertex> candidates;
+    const auto add_around = [&](int i, int j) {
+        for_neighbors(i, j, [&](int x, int y) {
+            if (is_candidate(x, y) != 0 || numeric::is_finite(heights(x, y))) return;
+            is_candidate(x, y) = 1;
+            candidates.push_back({x, y, 0});
+        });
+    };
     for (int j = 0; j < height; ++j)
         for (int i = 0; i < width; ++i)
-            if (!numeric::is_finite(heights(i, j))) missing.push_back({i, j, 0});
-    for (int step = 0; step < reach && !missing.empty(); ++step) {
-        std::vector<vertex> filled, others;
-        for (const vertex& v : missing) {
+            if (numeric::is_finite(heights(i, j))) add_around(i, j);
+    for (int step = 0; step < reach && !candidates.empty(); ++step) {
+        for (vertex& v : candidates) {
             float sum = 0, count = 0;
-            for (int j = (std::max)(v.j - 1, 0); j <= (std::min)(v.j + 1, height - 1); ++j)
-                for (int i = (std::max)(v.i - 1, 0); i <= (std::min)(v.i + 1, width - 1); ++i)
-                    if (numeric::is_finite(heights(i, j))) sum += heights(i, j), count += 1;
-            if (count > 0)
-                filled.push_back({v.i, v.j, sum / count});
-            else
-                others.push_back(v);
+            for_neighbors(v.i, v.j, [&](int x, int y) {
+                if (numeric::is_finite(heights(x, y))) sum += heights(x, y), count += 1;
+            });
+            v.value = sum / count;
         }
-        if (filled.empty()) break;
+        const std::vector<vertex> filled = std::exchange(candidates, {});
         for (const vertex& v : filled) heights(v.i, v.j) = v.value;
-        missing = std::move(others);
+        for (const vertex& v : filled) add_around(v.i, v.j);
     }
     return field;
 }

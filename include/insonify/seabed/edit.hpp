@@ -26,7 +26,8 @@ struct flatten {
     float level = 0;   ///< metres above the datum
 };
 
-/// Removes relief shorter than one to two lengths.
+/// Removes relief shorter than one to two lengths; beside gaps the ground stays as it is. Evaluates 16 rows of the
+/// ground for one: where several overlap, each is 16 times as slow as the one before.
 struct smooth {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 1;      ///< metres, > 0: with its edge
@@ -48,7 +49,7 @@ struct stamp {
     float every = 0;               ///< metres along the path from mark to mark; 0: a continuous furrow
 };
 
-/// Sediment heaped up to a level, to half bury a target. Higher ground stays.
+/// Sediment heaped up to a level, to half bury a target. Higher ground stays, and so does ground 100 m below the level.
 struct heap {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 0.5f;  ///< metres, >= 0: of its level top
@@ -108,7 +109,8 @@ inline ground_rect ground_of(const ramp& e) {
     require_positive_metres("ramp.width", e.width);
     require_height("ramp.from_height", e.from_height);
     require_height("ramp.to_height", e.to_height);
-    require(e.from != e.to, "ramp.to", e.to.x, "another point than ramp.from");
+    const float run = length(e.to.x - e.from.x, e.to.y - e.from.y);
+    require(run >= 1e-3f, "distance of ramp.to from ramp.from", run, "metres from 0.001");
     return rect_around(std::array{e.from, e.to}, static_cast<double>(e.width));
 }
 inline ground_rect ground_of(const stamp& e) {
@@ -116,7 +118,7 @@ inline ground_rect ground_of(const stamp& e) {
     for (const glm::dvec2& p : e.path) require_position("stamp.path", p);
     require_positive_metres("stamp.radius", e.radius);
     require_height("stamp.height", e.height);
-    require_metres("stamp.every", e.every);
+    require(e.every == 0 || (e.every >= 1e-3f && e.every < 1e6f), "stamp.every", e.every, "0, or metres from 0.001");
     return rect_around(e.path, static_cast<double>(e.radius));
 }
 inline ground_rect ground_of(const heap& e) {
@@ -186,18 +188,24 @@ inline height_range added(const height_range& ground, double lowest, double high
 inline height_range including(const height_range& ground, double to) {
     return merge(ground, {to, to});
 }
+/// The range of floats interpolated between heights of a range: rounding may exceed it.
+inline height_range interpolated(const height_range& r) {
+    const double error = 0x1p-21 * (std::max)(numeric::abs(r.lowest), numeric::abs(r.highest));
+    return r.empty() ? r : height_range{r.lowest - error, r.highest + error};
+}
 inline height_range range_after(const raise& e, const height_range& ground) {
     return added(ground, static_cast<double>(e.height), static_cast<double>(e.height));
 }
 inline height_range range_after(const flatten& e, const height_range& ground) {
-    return including(ground, static_cast<double>(e.level));
+    return interpolated(including(ground, static_cast<double>(e.level)));
 }
 /// Means stay within the range.
 inline height_range range_after(const smooth&, const height_range& ground) {
-    return ground;
+    return interpolated(ground);
 }
 inline height_range range_after(const ramp& e, const height_range& ground) {
-    return including(including(ground, static_cast<double>(e.from_height)), static_cast<double>(e.to_height));
+    return interpolated(
+        including(including(ground, static_cast<double>(e.from_height)), static_cast<double>(e.to_height)));
 }
 inline height_range range_after(const stamp& e, const height_range& ground) {
     return added(ground, static_cast<double>(e.height), static_cast<double>(e.height));
@@ -243,7 +251,8 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
         const auto across = spline_weights(u.fraction);
         float even = 0;
         for (std::size_t n = 0; n < 16; ++n) even += across[n] * from[n];
-        heights[i] = lerp(heights[i], even, plateau(length(x - e.centre.x, line.y - e.centre.y) / e.radius));
+        if (numeric::is_finite(even))
+            heights[i] = lerp(heights[i], even, plateau(length(x - e.centre.x, line.y - e.centre.y) / e.radius));
     }
 }
 

@@ -19,7 +19,8 @@ inline namespace INSONIFY_ABI {
 namespace seabed {
 
 /// Scour by a current around a footprint, such as that of a target: `moat{.outline = footprint(mesh, pose, height)}`.
-/// The ground below the middle of the footprint keeps its height, so that the target still rests on it.
+/// Inside of the outline it ends at width / 2, so that the ground below the middle of a wide target keeps its height.
+/// Place targets first, by `rest_on` of the ground without the moat.
 struct moat {
     std::vector<glm::dvec2> outline{
         {-1, -1}, {1, -1}, {1, 1}, {-1, 1}};  ///< of the target on the ground, 3 to 4096 corners

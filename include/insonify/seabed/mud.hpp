@@ -21,7 +21,7 @@ namespace seabed {
 struct mud {
     roughness surface{.rms = 0.008f, .longest = 4, .shortest = 0.06f};
     float density = 0.2f;        ///< mounds and pock marks per square metre, at most 1 / (4 size)^2; 0 for none
-    float size = 0.35f;          ///< metres, > 0: radius of the largest; the smallest have 0.4 of it
+    float size = 0.35f;          ///< metres, from 0.001: radius of the largest; the smallest have 0.4 of it
     float mound_height = 0.04f;  ///< metres, >= 0: of the largest mounds
     float pock_depth = 0.04f;    ///< metres, >= 0: of the largest pock marks
     float pock_share = 0.4f;     ///< in [0, 1]: fraction of them that are pock marks
@@ -45,7 +45,7 @@ class mud_sampler {
   public:
     explicit mud_sampler(const mud& m) : surface_(m.surface, m.seed, detail::stream::mud), trawls_(m.trawls, m.seed) {
         const float cell = 4 * m.size;
-        detail::require_positive_metres("mud.size", m.size);
+        detail::require_range("mud.size", m.size, 1e-3f, 1e6f, "metres from 0.001");
         detail::require(m.density >= 0 && m.density * cell * cell <= 1, "mud.density", m.density,
                         "0 to 1 / (4 size)^2 per square metre");
         detail::require_metres("mud.mound_height", m.mound_height);

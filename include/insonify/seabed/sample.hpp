@@ -29,6 +29,8 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
     detail::require_positive_metres("spacing", spacing);
     const auto axis = [&](double from, double to, const char* name) {
         detail::require(from >= -1e9 && to <= 1e9 && from <= to, name, to, "not below low, both within 1e9 metres");
+        detail::require(-from <= 0x1p53 * spacing && to <= 0x1p53 * spacing, "spacing", spacing,
+                        "at least 2^-53 of the distance to the origin");
         const std::int64_t first = numeric::floor_to_int(from / spacing);
         const std::int64_t last = (std::max)(-numeric::floor_to_int(-to / spacing), first + 1);
         detail::require(last - first < (1 << 30), name, to, "at most 2^30 vertices from low");

@@ -57,10 +57,12 @@ class sculpt_sampler {
   private:
     /// The ground after the first `count` edits.
     void fill(std::size_t count, const scanline& line, std::span<float> heights, std::span<type> types) const {
-        if (count == 0) return ground_.row(line, heights, types);
-        fill(count - 1, line, heights, types);
-        const edit& current = edits_[count - 1].applied;
-        const detail::ground_rect& bounds = edits_[count - 1].bounds;
+        ground_.row(line, heights, types);
+        for (std::size_t i = 0; i < count; ++i) apply(i, line, heights);
+    }
+    void apply(std::size_t number, const scanline& line, std::span<float> heights) const {
+        const edit& current = edits_[number].applied;
+        const detail::ground_rect& bounds = edits_[number].bounds;
         if (line.y < bounds.lower.y || line.y > bounds.upper.y || heights.empty()) return;
         // The samples within its bounds.
         std::size_t begin = 0, end = heights.size();
@@ -81,7 +83,7 @@ class sculpt_sampler {
             [&](const auto& e) {
                 if constexpr (std::is_same_v<std::remove_cvref_t<decltype(e)>, smooth>)
                     detail::smooth_row(e, there, part, [&](const scanline& nodes, std::span<float> at_nodes) {
-                        fill(count - 1, nodes, at_nodes, {});
+                        fill(number, nodes, at_nodes, {});
                     });
                 else
                     for (std::size_t i = 0; i < part.size(); ++i)

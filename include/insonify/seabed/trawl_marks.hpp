@@ -13,9 +13,9 @@ namespace seabed {
 struct trawl_marks {
     float density = 0;    ///< furrows per metre that one crosses, in [0, 1 / (4 width)]; 0 for none
     float depth = 0.06f;  ///< metres, >= 0
-    float width = 0.5f;   ///< metres, > 0: between the tops of the berms
+    float width = 0.5f;   ///< metres, from 0.001: between the tops of the berms
     int directions = 2;   ///< 1 to 8: number of directions of towing
-    float length = 150;   ///< metres, > 0: typical length of a furrow
+    float length = 150;   ///< metres, from 0.001: typical length of a furrow
 
     friend bool operator==(const trawl_marks&, const trawl_marks&) = default;
 };

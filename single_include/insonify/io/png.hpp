@@ -4,7 +4,10 @@
 
 #include <insonify/insonify.hpp>
 
+#include <cstring>
+#include <limits>
 #include <string>
+#include <vector>
 
 // Including stb_image_write.h twice with STB_IMAGE_WRITE_IMPLEMENTATION defined would define its functions twice.
 #if defined(INCLUDE_STB_IMAGE_WRITE_H)
@@ -29,7 +32,18 @@ inline void write_png_bytes(const std::string& path, const void* pixels, int wid
     const std::size_t bytes =
         static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels);
     require(bytes <= (std::size_t{1} << 29), "bytes of the image", bytes, "at most 2^29");
-    require(row_bytes <= (1 << 30), "bytes from row to row", row_bytes, "at most 2^30");
+
+    // stb computes the offsets of rows in int: rows that lie far apart are copied next to each other.
+    const auto packed_row = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
+    std::vector<unsigned char> packed;
+    if (row_bytes > (std::numeric_limits<int>::max)() / height) {
+        packed.resize(bytes);
+        for (int y = 0; y < height; ++y)
+            std::memcpy(&packed[static_cast<std::size_t>(y) * packed_row],
+                        static_cast<const unsigned char*>(pixels) + y * row_bytes, packed_row);
+        pixels = packed.data();
+        row_bytes = static_cast<std::ptrdiff_t>(packed_row);
+    }
 
     replacement_file file(path);
     const auto append = [](void* context, void* data, int size) {

@@ -284,6 +284,9 @@ TEST_CASE("A crate is solid, with its stated size, and loses boards with damage"
     CHECK(volume_of(m) == Approx(walls + posts).epsilon(0.06));
     CHECK(is_same(in::crate{.damage = 0.5f, .seed = 7}, in::crate{.damage = 0.5f, .seed = 7}));
     CHECK_FALSE(is_same(in::crate{.damage = 0.5f, .seed = 7}, in::crate{.damage = 0.5f, .seed = 8}));
+    // Boards lower than a tenth of their thickness.
+    const in::mesh thin = to_mesh(in::crate{.board = 0.08f, .boards = 64, .gap = 0.9f});
+    for (const glm::vec3& p : thin.positions) CHECK((p.z >= 0 && p.z <= in::crate{}.size.z));
     CHECK_THROWS_WITH(to_mesh(in::crate{.size = {1, 1, -1}}), ContainsSubstring("crate.size is -1"));
     CHECK_THROWS_WITH(to_mesh(in::crate{.board = 0.2f}), ContainsSubstring("crate.board is 0.2"));
     CHECK_THROWS_WITH(to_mesh(in::crate{.boards = 0}), ContainsSubstring("crate.boards is 0"));

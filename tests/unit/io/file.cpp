@@ -3,8 +3,10 @@
 #include <insonify/io/manifest.hpp>
 #include <insonify/io/netpbm.hpp>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <set>
 #include <thread>
 
@@ -12,6 +14,7 @@
 #include <csignal>
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 #endif
 
 #include "../../catch.hpp"
@@ -105,6 +108,15 @@ TEST_CASE("A write that fails says why and leaves nothing behind") {
 }
 
 #if defined(__unix__)
+TEST_CASE("Pipes and folders are not replaced by files") {
+    const scratch_folder folder;
+    REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    CHECK_THROWS_WITH(in::write_file(folder / "pipe", "text"), ContainsSubstring("not a regular file"));
+    CHECK(fs::is_fifo(folder.path / "pipe"));
+    CHECK_THROWS_WITH(in::write_file(folder.path.string(), "text"), ContainsSubstring("not a regular file"));
+    CHECK(folder.names() == std::set<std::string>{"pipe"});
+}
+
 TEST_CASE("A full disk loses the new file, not the old one") {
     const scratch_folder folder;
     const std::string path = folder / "image.pgm";
@@ -238,5 +250,22 @@ TEST_CASE("A PNG holds the pixels, of a part of an image too") {
     const in::image<in::rgb8> whole{{{1, 1, 1}, {2, 2, 2}, {3, 3, 3}}, {{4, 4, 4}, {5, 5, 5}, {6, 6, 6}}};
     in::write_png(path, whole.view().part(1, 0, 1, 2));
     CHECK(read(3) == std::vector<int>{1, 2, 2, 2, 2, 5, 5, 5});
+}
+
+TEST_CASE("A PNG holds a narrow part of an image of more than 2^31 bytes") {
+    const scratch_folder folder;
+    const int height = 33000, stride = 65536;
+    const std::size_t bytes = std::size_t{33000} * 65536;
+    const std::unique_ptr<std::uint8_t, decltype(&std::free)> memory(static_cast<std::uint8_t*>(std::calloc(bytes, 1)),
+                                                                     &std::free);
+    if (memory == nullptr) return;
+    memory.get()[bytes - stride + 2] = 200;
+    in::write_png(folder / "image.png", in::image_view<const std::uint8_t>(memory.get(), 3, height, stride));
+    int width = 0, rows = 0, channels = 0;
+    stbi_uc* const pixels = stbi_load((folder / "image.png").c_str(), &width, &rows, &channels, 0);
+    REQUIRE(pixels != nullptr);
+    CHECK((width == 3 && rows == height && channels == 1));
+    CHECK(pixels[3 * height - 1] == 200);
+    stbi_image_free(pixels);
 }
 #endif

@@ -106,6 +106,38 @@ TEST_CASE("Text that is not a list of soundings is refused") {
     CHECK_THROWS_WITH(sb::parse_xyz("0 0 1", 0), ContainsSubstring("spacing is 0"));
 }
 
+TEST_CASE("A sounding with an empty cell for z is skipped, and columns stay where they are") {
+    const sb::heightfield field =
+        sb::parse_xyz("x,y,depth,quality\n0,0,-12.5,1\n1,0,,1\n0,1,-12,1\n1,1, ,2\n2 ; 0 ; -3 ; 9\n", 1);
+    CHECK(field.heights(0, 0) == -12.5f);
+    CHECK(field.heights(0, 1) == -12);
+    CHECK(field.heights(2, 0) == -3);
+    CHECK(missing(field.heights(1, 0)));
+    CHECK(missing(field.heights(1, 1)));
+    CHECK_THROWS_WITH(sb::parse_xyz("0,,3\n", 1), ContainsSubstring("ends before a y"));
+}
+
+TEST_CASE("Decimal commas are refused") {
+    for (const char* const line : {"100,25;200,50;-12,30", "100,25 200,50 -12,30", "100;200,5;3", "1,5\t2,5\t3,5"}) {
+        CAPTURE(line);
+        CHECK_THROWS_WITH(sb::parse_xyz(line, 1), ContainsSubstring("xyz:1: ") && ContainsSubstring("decimal commas"));
+    }
+}
+
+TEST_CASE("Lines of dashes or dots are no soundings, and the largest double in 15 digits marks missing data") {
+    CHECK(sb::parse_xyz("---- soundings ----\n... x\n0 0 1\n1 0 -.5\n0 1 +2\n", 1).heights(1, 0) == -0.5f);
+    const sb::heightfield field = sb::parse_esri_grid(
+        "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -1.79769313486232e+308\n"
+        "1 -1.79769313486232e+308\n1e-400 3\n");
+    CHECK(missing(field.heights(1, 1)));
+    CHECK(field.heights(0, 0) == 0);
+}
+
+TEST_CASE("Soundings or grids so far away that their vertices have no number are refused") {
+    CHECK_THROWS_WITH(sb::parse_xyz("500000 500000 -5\n500001 500000 -7\n", 5e-14), ContainsSubstring("2^53"));
+    CHECK_THROWS_WITH(sb::grid_over({5e5, 5e5}, {5e5 + 1, 5e5 + 1}, 5e-14), ContainsSubstring("spacing is 5e-14"));
+}
+
 TEST_CASE("Soundings in degrees, which share a few vertices, are refused") {
     const auto survey = [](double x, double y, double step, int side) {
         std::string text = "longitude latitude depth\n";

@@ -129,6 +129,39 @@ TEST_CASE("Smoothing removes short relief and keeps slopes") {
         CHECK(static_cast<double>(sb::at(sloped, x, 1.1).height) == Approx(x + 0.55).margin(1e-5));
 }
 
+TEST_CASE("Smoothing leaves ground beside gaps as it is, and makes no gap wider") {
+    sb::heightfield survey{.heights = in::image<float>(41, 41, 1.0f), .spacing = 0.25};
+    survey.heights(20, 20) = std::nanf("");
+    const sb::grid area{.spacing = 0.05, .width = 200, .height = 200};
+    const auto gaps = [&](const std::vector<sb::edit>& edits) {
+        const auto field = sb::sample(sb::sculpted{.ground = survey, .edits = edits}, area);
+        return std::count_if(field.heights.pixels().begin(), field.heights.pixels().end(),
+                             [](float h) { return !std::isfinite(h); });
+    };
+    const auto bare = gaps({});
+    CHECK(bare > 0);
+    for (const float length : {0.25f, 1.0f}) CHECK(gaps({sb::smooth{{5, 5}, 3, length}}) == bare);
+    CHECK(gaps({sb::smooth{{7.5, 7.5}, 2.6f, 0.5f}}) == bare);
+}
+
+TEST_CASE("Heights stay within the range after levelling and smoothing, rounding included") {
+    const std::vector<sb::edit> edits{sb::flatten{{0, 0}, 100, 0.3f}, sb::smooth{{0, 0}, 2, 0.25f},
+                                      sb::ramp{.from_height = 0.3f, .to_height = 0.3f}};
+    const sb::sculpted bed{.ground = plane, .edits = edits};
+    const sb::height_range range = bed.prepare().range();
+    const auto field = sb::sample(bed, {.origin = {-3, -3}, .spacing = 0.03, .width = 200, .height = 200});
+    for (const float h : field.heights.pixels()) {
+        REQUIRE(static_cast<double>(h) <= range.highest);
+        REQUIRE(static_cast<double>(h) >= range.lowest);
+    }
+}
+
+TEST_CASE("A hundred thousand edits need no deep stack") {
+    const sb::sculpted bed{.ground = plane,
+                           .edits = std::vector<sb::edit>(100000, sb::raise{{0, 0}, 1, 1.0f / 131072})};
+    CHECK(sb::at(bed, 0, 0).height == 100000.0f / 131072);
+}
+
 TEST_CASE("Edits apply in order") {
     const sb::edit hill = sb::raise{{0, 0}, 2, 0.5f}, level = sb::flatten{{0, 0}, 2, 0.1f};
     CHECK(height({hill, level}, 0, 0) == 0.1f);

@@ -63,6 +63,7 @@ inline mesh to_mesh(const crate& c) {
     // Boards of the short sides and of lid and floor reach half way into those of the long sides.
     for (int i = 0; i < c.boards; ++i) {
         const auto [low, high] = part(i, 0, half.z);
+        const double trim = (std::min)(0.05 * t, 0.1 * (high - low));
         const auto [left, right] = part(i, -half.y + 1.1 * t, half.y - 1.1 * t);
         for (const double side : {-1.0, 1.0}) {
             const double outer = side * half.y, inner = side * (half.y - t);
@@ -71,8 +72,8 @@ inline mesh to_mesh(const crate& c) {
                                    {half.x, (std::max)(outer, inner), high});
             const double face = side * (half.x - 0.05 * t), back = side * (half.x - t);
             if (stays())
-                detail::append_box(body, {(std::min)(face, back), -half.y + 0.5 * t, low + 0.05 * t},
-                                   {(std::max)(face, back), half.y - 0.5 * t, high - 0.05 * t});
+                detail::append_box(body, {(std::min)(face, back), -half.y + 0.5 * t, low + trim},
+                                   {(std::max)(face, back), half.y - 0.5 * t, high - trim});
         }
         detail::append_box(body, {-half.x + 0.5 * t, left, 0.05 * t}, {half.x - 0.5 * t, right, t});
         if (stays() && !c.is_open)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -33,10 +34,22 @@ class survey_reader {
         for (; at_ < text_.size() && is_blank(text_[at_]); ++at_) line_ += ends_line(at_) ? 1u : 0u;
         return word_here();
     }
-    /// The next word of this line; empty at its end.
-    std::string_view word_of_line() {
-        while (at_ < text_.size() && is_blank(text_[at_]) && !is_line_break(text_[at_])) ++at_;
-        return word_here();
+    /// A field of a line, and what stands before it: ',', ';' or, for blanks alone, ' '.
+    struct field {
+        std::string_view text;
+        char separator;
+    };
+    /// The next field of this line; empty at its end, and between two commas or semicolons.
+    field field_of_line() {
+        const auto skip_spaces = [&] {
+            while (at_ < text_.size() && is_blank(text_[at_]) && !is_line_break(text_[at_]) && !is_comma(text_[at_]))
+                ++at_;
+        };
+        skip_spaces();
+        char separator = ' ';
+        if (at_ < text_.size() && is_comma(text_[at_])) separator = text_[at_++];
+        skip_spaces();
+        return {word_here(), separator};
     }
     /// The next word, which is not consumed.
     std::string_view peek() {
@@ -54,10 +67,16 @@ class survey_reader {
     double number(std::string_view digits, const char* what) const {
         if (digits.empty())
             fail((at_ < text_.size() ? "the line ends before " : "the text ends before ") + std::string(what));
+        using insonify::detail::number_text;
         double value = 0;
-        if (insonify::detail::parse_number(digits, value) != insonify::detail::number_text::fine)
+        const number_text read = insonify::detail::parse_number(digits, value);
+        if (read == number_text::malformed)
             fail(insonify::detail::quoted(digits) + " is not a number, expected " + what);
-        return value;
+        if (read == number_text::fine) return value;
+        // The largest double in too few digits is a usual mark of missing data.
+        const bool is_tiny = digits.find("e-") != digits.npos || digits.find("E-") != digits.npos;
+        const double infinity = std::numeric_limits<double>::infinity();
+        return is_tiny ? 0 : digits[0] == '-' ? -infinity : infinity;
     }
     double finite(const char* what) {
         const double value = number(what);
@@ -82,7 +101,8 @@ class survey_reader {
     bool ends_line(std::size_t at) const {
         return text_[at] == '\n' || (text_[at] == '\r' && text_.substr(at + 1, 1) != "\n");
     }
-    static bool is_blank(char c) { return (c >= '\t' && c <= '\r') || c == ' ' || c == ',' || c == ';'; }
+    static bool is_comma(char c) { return c == ',' || c == ';'; }
+    static bool is_blank(char c) { return (c >= '\t' && c <= '\r') || c == ' ' || is_comma(c); }
 
     std::string_view text_, name_;
     std::size_t at_ = 0, line_ = 1;
