@@ -5337,7 +5337,7 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input for a mask of another size
 template <class Pixel>
 image<Pixel> pixels_where(image_view<const std::uint8_t> mask, image_view<const Pixel> source) {
-    detail::check_size("pixels_where", mask.width(), mask.height(), {0, 0, source.width(), source.height()});
+    detail::check_size("where", mask.width(), mask.height(), {0, 0, source.width(), source.height()});
     int count = 0;
     for (int y = 0; y < mask.height(); ++y)
         for (const std::uint8_t chosen : mask.row(y)) count += chosen != 0 ? 1 : 0;
@@ -10784,6 +10784,7 @@ INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s) {
 INSONIFY_FUNCTION pose rest_on(const insonify::seabed::any& seabed, const mesh_view& shape, pose placement) {
     detail::require(!shape.positions.empty(), "shape.positions.size()", shape.positions.size(), "at least 1");
     detail::require_finite("pose.burial", placement.burial);
+    insonify::seabed::detail::require_position("pose.position", glm::dvec2(placement.position));
     pose bare = placement;
     bare.burial = 0;
     const affine map = to_world(bare);
@@ -10791,6 +10792,7 @@ INSONIFY_FUNCTION pose rest_on(const insonify::seabed::any& seabed, const mesh_v
     double clearance = std::numeric_limits<double>::infinity();
     for (const glm::vec3& p : shape.positions) {
         const glm::dvec3 world = transform_point(map, glm::dvec3(p));
+        if (!(numeric::abs(world.x) <= 1e9 && numeric::abs(world.y) <= 1e9)) continue;  // NaN, too
         const float height = insonify::seabed::at(bottom, world.x, world.y).height;
         if (numeric::is_finite(height)) clearance = (std::min)(clearance, world.z - static_cast<double>(height));
     }
@@ -17979,6 +17981,8 @@ class sampled_bottom {
     }
 
     const seabed::heightfield& field() const { return field_; }
+    /// Whether what is below may be seen: there are vertices without data, or no samples at all.
+    bool is_open() const { return field_.heights.empty() || kind_ == surface_kind::open; }
     /// Bounds of the vertices' heights and the datum.
     float lowest() const { return lowest_; }
     float highest() const { return highest_; }
@@ -18333,7 +18337,7 @@ class overhead_painter {
             for (int corner = 0; corner < 8 && !t.box.empty(); ++corner) {
                 const double z = transform_point(t.to_rig, t.box.corner(corner)).z;
                 top = (std::max)(top, z);
-                if (!has_bottom()) low = (std::min)(low, z);
+                if (bottom_.is_open()) low = (std::min)(low, z);
             }
         if (low > top) return {};
         const glm::dvec2 half = view_.half_extent(low);
@@ -18645,6 +18649,15 @@ struct probe {
 
 namespace detail::inline INSONIFY_FLAGS {
 
+/// The smallest cell that `render` takes.
+inline double least_cell(const overhead_geometry& view) {
+    return 2 * (std::max)(view.half_extent(0).x, view.half_extent(0).y) / 32768;
+}
+/// The most sub-pixel bits that pictures of a rig take.
+inline int most_subpixel_bits(const overhead& rig) {
+    return (std::max)(rig.size.x, rig.size.y) > 16384 ? 15 : 16;
+}
+
 /// Small pictures of a seabed with their ground truth.
 class seabed_probe {
   public:
@@ -18724,9 +18737,12 @@ class seabed_probe {
     template <executor E>
     image<std::uint8_t> march(const overhead& chip, E& ex) const {
         const overhead_geometry view(chip);
-        const double half = view.half_extent(0).x, tangent = numeric::tan(static_cast<double>(chip.grazing));
+        const double half = view.half_extent(0).x;
         const glm::dmat3& turn = view.rig_from({}).linear;
-        const glm::dvec2 travel(numeric::product(glm::transpose(turn), glm::dvec3(view.light().travel(), 0)));
+        const auto world = [&](const glm::dvec3& v) { return numeric::product(glm::transpose(turn), v); };
+        const bool is_near = view.has_near_light();
+        const glm::dvec3 light =
+            is_near ? world(view.light_position()) + glm::dvec3(chip.position, 0) : world(view.light().to_light());
 
         // The ground in view and as much towards the light.
         const glm::dvec2 low = chip.position - 4 * half;
@@ -18750,19 +18766,25 @@ class seabed_probe {
                     const double height = field.facet_at(at.x, at.y).height;
                     at = chip.position + datum * (1 - height / static_cast<double>(chip.altitude));
                 }
-                dark(i, j) = is_dark(field, at, travel, tangent, top) ? 1 : 0;
+                const glm::dvec3 toward = is_near ? light - glm::dvec3(at, field.facet_at(at.x, at.y).height) : light;
+                dark(i, j) = is_dark(field, at, toward, is_near, top) ? 1 : 0;
             }
         });
         return dark;
     }
 
-    static bool is_dark(const seabed::heightfield& field, const glm::dvec2& at, const glm::dvec2& travel,
-                        double tangent, double top) {
+    /// @param toward  the vector to a near light, or the direction of a distant one
+    static bool is_dark(const seabed::heightfield& field, const glm::dvec2& at, const glm::dvec3& toward, bool is_near,
+                        double top) {
         const auto facet = field.facet_at(at.x, at.y);
+        const double level = numeric::square_root(toward.x * toward.x + toward.y * toward.y);
+        if (level <= 1e-7 * numeric::abs(toward.z)) return false;  // the zenith
+        const glm::dvec2 travel(-toward.x / level, -toward.y / level);
+        const double tangent = toward.z / level;
         if (field.spacing * tangent + facet.rise_x * travel.x + facet.rise_y * travel.y <= 0) return true;
         for (double away = 0.01 * field.spacing;; away += field.spacing) {
             const double ray = facet.height + away * tangent;
-            if (!(ray <= top)) return false;
+            if (!(ray <= top) || (is_near && away > level)) return false;
             const glm::dvec2 below = at - away * travel;
             if (field.facet_at(below.x, below.y).height > ray + 1e-7) return true;
         }
@@ -18936,7 +18958,8 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     const overhead_geometry view(rig);
     settings<Shadow> found{.rig = rig};
     // Snapping moves a vertex by at most half a sub-pixel along each axis.
-    if (tolerated.silhouette * 0.05 < 1.0 / (1 << found.subpixel_bits)) found.subpixel_bits = 16;
+    if (tolerated.silhouette * 0.05 < 1.0 / (1 << found.subpixel_bits))
+        found.subpixel_bits = detail::most_subpixel_bits(rig);
     found.silhouette_error = tolerated.silhouette;
     found.shadow_edge_error = 0.5 * tolerated.shadow_edge;
     if (bottom.empty()) return found;
@@ -18986,7 +19009,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         }
         found.shadow.texels_per_pixel = static_cast<float>(texels);
     }
-    found.cell = pixel / (std::min)(chosen, 32768.0 / longer);
+    found.cell = (std::max)(pixel / chosen, detail::least_cell(view));
     return found;
 }
 
@@ -19007,11 +19030,12 @@ inline settings<> balanced(const overhead& rig) {
             .rig = rig};
 }
 /// Two seabed vertices per pixel along each axis, facets within 1/50 and vertices rounded to 1/65536 of a pixel. Grids
-/// are limited to 32768 cells a side, which makes them coarser for pictures of more than 16384 pixels.
+/// are limited to 32768 cells a side and coordinates to 2^30 sub-pixels: both are coarser for pictures of more than
+/// 16384 pixels.
 inline settings<> exact(const overhead& rig) {
-    const double finest = (std::max)(0.5, (std::max)(rig.size.x, rig.size.y) / 32768.0);
-    return {.cell = finest * overhead_geometry(rig).ground_sampling(),
-            .subpixel_bits = 16,
+    const overhead_geometry view(rig);
+    return {.cell = (std::max)(0.5 * view.ground_sampling(), detail::least_cell(view)),
+            .subpixel_bits = detail::most_subpixel_bits(rig),
             .silhouette_error = 0.02,
             .shadow_edge_error = 0.02,
             .rig = rig};
@@ -23913,6 +23937,13 @@ struct noise_floor {
     INSONIFY_MEMBER double noise() const { return static_cast<double>(intensity); }
 };
 
+namespace detail {
+
+/// Backscatter at smaller grazing angles is that at this one, by its sine.
+inline constexpr float least_grazing_sine = 1e-3f;
+
+}  // namespace detail
+
 /// The echo of level seabed that gains are computed for.
 struct flat_echo {
     double range, altitude;  ///< metres
@@ -24060,7 +24091,9 @@ class sonar_equation {
         const auto level_at = [&](double sine) {
             const double cosine = numeric::square_root(1 - sine * sine);
             const double length = e.counts_time ? e.bin / cosine : e.bin;
-            return static_cast<double>(law(static_cast<float>(sine))) * length * e.spacing *
+            // Rays take the law from the same angle up.
+            const double clamped = (std::max)(sine, static_cast<double>(detail::least_grazing_sine));
+            return static_cast<double>(law(static_cast<float>(clamped))) * (sine / clamped) * length * e.spacing *
                    over_direction(cosine, sine) * over_range(e.range, e.spacing);
         };
         return product([&](const auto& p) {
@@ -24479,7 +24512,8 @@ class bottom_tiles {
     double side() const { return cells * spacing_; }
 
     std::pair<std::int64_t, std::int64_t> tile_of(const glm::dvec2& p) const {
-        for (const double c : {p.x, p.y}) require(c > -1e9 && c < 1e9, "ping.position", c, "within 1e9 metres");
+        require(p.x > -1e9 && p.x < 1e9, "ping.position.x", p.x, "within 1e9 metres, with its swath");
+        require(p.y > -1e9 && p.y < 1e9, "ping.position.y", p.y, "within 1e9 metres, with its swath");
         return {numeric::floor_to_int(p.x * scale_) >> shift, numeric::floor_to_int(p.y * scale_) >> shift};
     }
 
@@ -24659,8 +24693,8 @@ class bottom_profile {
             const auto height = static_cast<double>(v.height);
             points_[i] = {depth, v.slope_x * across.x + v.slope_y * across.y, v.slope_x * along.x + v.slope_y * along.y,
                           static_cast<std::uint8_t>(v.type)};
-            lowest_ = (std::min)(height, lowest_);  // ignores NaN
-            highest_ = (std::max)(height, highest_);
+            lowest_ = (std::min)(lowest_, height);  // in this order, NaN is ignored
+            highest_ = (std::max)(highest_, height);
         }
     }
 
@@ -25674,7 +25708,7 @@ class ping_tracer {
     /// Power that a surface of reflectivity 1 returns from a ray: the ray's cross-section over the sine of the grazing
     /// angle, times the law.
     float power_of(std::size_t k, double range, float grazing_sine) const {
-        const float sine = (std::min)((std::max)(grazing_sine, 1e-3f), 1.0f);
+        const float sine = (std::min)((std::max)(grazing_sine, least_grazing_sine), 1.0f);
         return static_cast<float>(range) * ray_power_[k] * law_(sine) / sine;
     }
 
@@ -25732,10 +25766,13 @@ class bin_factors {
             altitude_ = altitude;
             values_.clear();
             for (std::size_t b = 0; b < static_cast<std::size_t>(bins); ++b)
-                values_.push_back(static_cast<float>(factor(b)));
+                values_.push_back(static_cast<float>((std::min)(factor(b), static_cast<double>(largest))));
         }
         return values_;
     }
+
+    /// In place of infinity, of which 0 would make NaN.
+    static constexpr float largest = (std::numeric_limits<float>::max)();
 
   private:
     dynamic_array<float> values_;
@@ -25831,7 +25868,8 @@ class recorder {
         const int row = static_cast<int>(number);
         const auto power = out_.image.row(row);
         for (std::size_t b = 0; b < bins.size(); ++b) power[b] = bins[b].bottom + bins[b].target;
-        for (std::size_t b = 0; b < losses.size(); ++b) power[b] *= losses[b];
+        for (std::size_t b = 0; b < losses.size(); ++b)
+            power[b] = (std::min)(power[b] * losses[b], bin_factors::largest);
         convolve_pulse(power, equation_.pulse_length() / window_.bin());
         if constexpr (labelled) {
             const auto instance = out_.labels.instance.row(row), shadow = out_.labels.shadow.row(row);
@@ -25906,7 +25944,8 @@ class recorder {
                         {slant_of(b, altitude), altitude, window_.bin(), spacing(), window_.counts_time});
                 });
                 const auto row = out_.image.row(static_cast<int>(i));
-                for (std::size_t b = 0; b < row.size(); ++b) row[b] = (row[b] + noise) * gain[b];
+                for (std::size_t b = 0; b < row.size(); ++b)
+                    row[b] = (std::min)((row[b] + noise) * gain[b], bin_factors::largest);
             }
         });
     }
@@ -26511,7 +26550,8 @@ inline namespace INSONIFY_FLAGS {
 /// The level that a tone adds at a position, decibels.
 /// @throws invalid_input for a parameter out of its range, or a position that is not finite
 inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
-    detail::require_finite("position", position);
+    detail::require_range("position.x", position.x, -1e12, 1e12, "within 10^12 metres");
+    detail::require_range("position.y", position.y, -1e12, 1e12, "within 10^12 metres");
     return detail::tone_sampler(tone)(position);
 }
 
@@ -26900,19 +26940,30 @@ inline void check_length(const char* name, float value) {
     require_range(name, value, 1, 1e9f, "1 to 1e9 pixels");
 }
 
-/// Multiplies pixels by a factor that depends on the column alone, computed once for each column.
-class column_gain {
+/// Pass of a range_gain_error: factors by column, computed once for each.
+template <class Error>
+class range_gain_law {
   public:
-    template <class DecibelsAt>
-    column_gain(int width, const DecibelsAt& decibels_at) {
-        for (int x = 0; x < width; ++x) factors_.push_back(static_cast<float>(from_decibels(decibels_at(x))));
+    explicit range_gain_law(const Error& e)
+        : e_(e), curve_(stream_key(e.seed, static_cast<std::uint32_t>(drift_stream::range_gain))) {}
+
+    void prepare(const pixel_area& area) {
+        first_ = area.x;
+        factors_.clear();
+        for (int i = 0; i < area.width; ++i)
+            factors_.push_back(static_cast<float>(from_decibels(
+                static_cast<double>(e_.slope) * ((i + 0.5) / area.width - 0.5) +
+                static_cast<double>(e_.rms) * smooth_noise((area.x + i) / static_cast<double>(e_.length), curve_))));
     }
     template <std::same_as<float> Pixel>
     Pixel operator()(Pixel intensity, int x, int) const {
-        return intensity * factors_[static_cast<std::size_t>(x)];
+        return intensity * factors_[static_cast<std::size_t>(x - first_)];
     }
 
   private:
+    Error e_;
+    philox_key curve_;
+    int first_ = 0;
     dynamic_array<float> factors_;
 };
 
@@ -26957,33 +27008,30 @@ struct range_gain_error {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a parameter out of its range
-    INSONIFY_TAGGED auto pass(image_view<const float> picture) const {
+    INSONIFY_TAGGED auto pass() const {
         detail::check_decibels("range_gain_error.rms", rms);
         detail::check_length("range_gain_error.length", length);
         detail::require_range("range_gain_error.slope", slope, -60, 60, "-60 to 60 dB");
-        const int width = picture.width();
-        const philox_key key = stream_key(seed, static_cast<std::uint32_t>(detail::drift_stream::range_gain));
-        return detail::column_gain(width, [&](int x) {
-            return static_cast<double>(slope) * ((x + 0.5) / width - 0.5) +
-                   static_cast<double>(rms) * detail::smooth_noise(x / static_cast<double>(length), key);
-        });
+        return detail::range_gain_law<range_gain_error>(*this);
     }
 };
 
 /// Pings that are brighter or darker than their neighbours, in decibels: drift over many pings, and independent jitter
 /// of each. Row `y` is ping first_ping + step * y, so that recordings made in pieces fit together.
 struct ping_banding {
-    float drift = 1;      ///< decibels (rms), 0 to 60
-    float length = 40;    ///< pings between nodes of the drift
-    float jitter = 0.5f;  ///< decibels (rms), 0 to 60
-    std::int64_t first_ping = 0;
-    int step = 1;  ///< 1 or -1
+    float drift = 1;              ///< decibels (rms), 0 to 60
+    float length = 40;            ///< pings between nodes of the drift
+    float jitter = 0.5f;          ///< decibels (rms), 0 to 60
+    std::int64_t first_ping = 0;  ///< within 2^61
+    int step = 1;                 ///< 1 or -1
     std::uint64_t seed = 1;
 
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a parameter out of its range
     INSONIFY_TAGGED auto pass() const {
+        constexpr std::int64_t farthest = std::int64_t{1} << 61;
+        detail::require_range("ping_banding.first_ping", first_ping, -farthest, farthest, "within 2^61");
         detail::check_decibels("ping_banding.drift", drift);
         detail::check_length("ping_banding.length", length);
         detail::check_decibels("ping_banding.jitter", jitter);
@@ -27022,7 +27070,7 @@ inline double slant_range(double ground, double altitude, double height = 0) {
 
 /// Distance across the track of the seabed at a slant range; 0 in the water column.
 inline double ground_range(double slant, double altitude) {
-    return slant > altitude ? numeric::square_root(slant * slant - altitude * altitude) : 0;
+    return slant > numeric::abs(altitude) ? numeric::square_root(slant * slant - altitude * altitude) : 0;
 }
 
 /// Angle of the ray with the seabed, radians: pi / 2 below the sonar.
@@ -27043,7 +27091,8 @@ inline double shadow_length(double ground, double altitude, double height) {
 /// Length of a shadow in a picture of slant ranges, from the echo of the point that casts it.
 inline double slant_shadow_length(double ground, double altitude, double height) {
     if (!(height < altitude)) return std::numeric_limits<double>::infinity();
-    return slant_range(shadow_tip(ground, altitude, height), altitude) - slant_range(ground, altitude, height);
+    const double tip = slant_range(shadow_tip(ground, altitude, height), altitude);
+    return numeric::is_finite(tip) ? tip - slant_range(ground, altitude, height) : tip;
 }
 
 /// Apparent position of a raised point after slant-range correction: layover moves it towards the sonar, at most to 0.
@@ -27169,26 +27218,33 @@ namespace detail::inline INSONIFY_FLAGS {
 template <class Water>
 class water_law {
   public:
-    water_law(const Water& w, int bins)
-        : w_(w), key_(stream_key(w.seed, static_cast<std::uint32_t>(drift_stream::surface))) {
-        for (int x = 0; x < bins; ++x) {
-            const double over = range(x) / static_cast<double>(w.noise_range);
-            const double gain = numeric::pow(over, 0.1 * static_cast<double>(w.spreading)) *
-                                from_decibels(0.002 * static_cast<double>(w.absorption_per_km) *
-                                              (range(x) - static_cast<double>(w.noise_range)));
-            steady_.push_back(static_cast<float>(static_cast<double>(w.noise) * gain) + w.volume);
-        }
+    explicit water_law(const Water& w)
+        : w_(w), key_(stream_key(w.seed, static_cast<std::uint32_t>(drift_stream::surface))) {}
+
+    void prepare(const pixel_area& area) {
+        first_ = area.x;
+        steady_.clear();
+        for (int i = 0; i < area.width; ++i) steady_.push_back(noise_at(range(area.x + i)) + w_.volume);
     }
 
     template <std::same_as<float> Pixel>
     Pixel operator()(Pixel intensity, int x, int y) {
-        Pixel sum = intensity + steady_[static_cast<std::size_t>(x)];
+        Pixel sum = intensity + steady_[static_cast<std::size_t>(x - first_)];
         if (w_.surface > 0) sum += surface_at(x, y);
         return sum;
     }
 
   private:
     double range(int x) const { return static_cast<double>(w_.first_range) + (x + 0.5) * static_cast<double>(w_.bin); }
+    float noise_at(double range) const {
+        if (w_.noise == 0) return 0;
+        const double over = range / static_cast<double>(w_.noise_range);
+        const double gain = numeric::pow(over, 0.1 * static_cast<double>(w_.spreading)) *
+                            from_decibels(0.002 * static_cast<double>(w_.absorption_per_km) *
+                                          (range - static_cast<double>(w_.noise_range)));
+        return static_cast<float>(
+            (std::min)(static_cast<double>(w_.noise) * gain, static_cast<double>((std::numeric_limits<float>::max)())));
+    }
     float surface_at(int x, int y) {
         if (y != row_) {
             row_ = y;
@@ -27205,7 +27261,7 @@ class water_law {
     Water w_;
     philox_key key_;
     dynamic_array<float> steady_;
-    int row_ = -1;
+    int first_ = 0, row_ = -1;
     double begins_ = 0;
 };
 
@@ -27233,7 +27289,7 @@ struct water_column {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a parameter out of its range
-    INSONIFY_TAGGED auto pass(image_view<const float> picture) const {
+    INSONIFY_TAGGED auto pass() const {
         using detail::require_not_negative, detail::require_positive, detail::require_range;
         require_not_negative("water_column.first_range", first_range);
         require_positive("water_column.bin", bin);
@@ -27247,7 +27303,7 @@ struct water_column {
         require_positive("water_column.surface_tail", surface_tail);
         require_not_negative("water_column.waves", waves);
         require_range("water_column.wave_length", wave_length, 1, 1e9f, "1 to 1e9 pings");
-        return detail::water_law<water_column>(*this, picture.width());
+        return detail::water_law<water_column>(*this);
     }
 };
 

@@ -129,7 +129,8 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     const overhead_geometry view(rig);
     settings<Shadow> found{.rig = rig};
     // Snapping moves a vertex by at most half a sub-pixel along each axis.
-    if (tolerated.silhouette * 0.05 < 1.0 / (1 << found.subpixel_bits)) found.subpixel_bits = 16;
+    if (tolerated.silhouette * 0.05 < 1.0 / (1 << found.subpixel_bits))
+        found.subpixel_bits = detail::most_subpixel_bits(rig);
     found.silhouette_error = tolerated.silhouette;
     found.shadow_edge_error = 0.5 * tolerated.shadow_edge;
     if (bottom.empty()) return found;
@@ -179,7 +180,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         }
         found.shadow.texels_per_pixel = static_cast<float>(texels);
     }
-    found.cell = pixel / (std::min)(chosen, 32768.0 / longer);
+    found.cell = (std::max)(pixel / chosen, detail::least_cell(view));
     return found;
 }
 
@@ -200,11 +201,12 @@ inline settings<> balanced(const overhead& rig) {
             .rig = rig};
 }
 /// Two seabed vertices per pixel along each axis, facets within 1/50 and vertices rounded to 1/65536 of a pixel. Grids
-/// are limited to 32768 cells a side, which makes them coarser for pictures of more than 16384 pixels.
+/// are limited to 32768 cells a side and coordinates to 2^30 sub-pixels: both are coarser for pictures of more than
+/// 16384 pixels.
 inline settings<> exact(const overhead& rig) {
-    const double finest = (std::max)(0.5, (std::max)(rig.size.x, rig.size.y) / 32768.0);
-    return {.cell = finest * overhead_geometry(rig).ground_sampling(),
-            .subpixel_bits = 16,
+    const overhead_geometry view(rig);
+    return {.cell = (std::max)(0.5 * view.ground_sampling(), detail::least_cell(view)),
+            .subpixel_bits = detail::most_subpixel_bits(rig),
             .silhouette_error = 0.02,
             .shadow_edge_error = 0.02,
             .rig = rig};

@@ -39,6 +39,15 @@ struct probe {
 
 namespace detail::inline INSONIFY_FLAGS {
 
+/// The smallest cell that `render` takes.
+inline double least_cell(const overhead_geometry& view) {
+    return 2 * (std::max)(view.half_extent(0).x, view.half_extent(0).y) / 32768;
+}
+/// The most sub-pixel bits that pictures of a rig take.
+inline int most_subpixel_bits(const overhead& rig) {
+    return (std::max)(rig.size.x, rig.size.y) > 16384 ? 15 : 16;
+}
+
 /// Small pictures of a seabed with their ground truth.
 class seabed_probe {
   public:
@@ -118,9 +127,12 @@ class seabed_probe {
     template <executor E>
     image<std::uint8_t> march(const overhead& chip, E& ex) const {
         const overhead_geometry view(chip);
-        const double half = view.half_extent(0).x, tangent = numeric::tan(static_cast<double>(chip.grazing));
+        const double half = view.half_extent(0).x;
         const glm::dmat3& turn = view.rig_from({}).linear;
-        const glm::dvec2 travel(numeric::product(glm::transpose(turn), glm::dvec3(view.light().travel(), 0)));
+        const auto world = [&](const glm::dvec3& v) { return numeric::product(glm::transpose(turn), v); };
+        const bool is_near = view.has_near_light();
+        const glm::dvec3 light =
+            is_near ? world(view.light_position()) + glm::dvec3(chip.position, 0) : world(view.light().to_light());
 
         // The ground in view and as much towards the light.
         const glm::dvec2 low = chip.position - 4 * half;
@@ -144,19 +156,25 @@ class seabed_probe {
                     const double height = field.facet_at(at.x, at.y).height;
                     at = chip.position + datum * (1 - height / static_cast<double>(chip.altitude));
                 }
-                dark(i, j) = is_dark(field, at, travel, tangent, top) ? 1 : 0;
+                const glm::dvec3 toward = is_near ? light - glm::dvec3(at, field.facet_at(at.x, at.y).height) : light;
+                dark(i, j) = is_dark(field, at, toward, is_near, top) ? 1 : 0;
             }
         });
         return dark;
     }
 
-    static bool is_dark(const seabed::heightfield& field, const glm::dvec2& at, const glm::dvec2& travel,
-                        double tangent, double top) {
+    /// @param toward  the vector to a near light, or the direction of a distant one
+    static bool is_dark(const seabed::heightfield& field, const glm::dvec2& at, const glm::dvec3& toward, bool is_near,
+                        double top) {
         const auto facet = field.facet_at(at.x, at.y);
+        const double level = numeric::square_root(toward.x * toward.x + toward.y * toward.y);
+        if (level <= 1e-7 * numeric::abs(toward.z)) return false;  // the zenith
+        const glm::dvec2 travel(-toward.x / level, -toward.y / level);
+        const double tangent = toward.z / level;
         if (field.spacing * tangent + facet.rise_x * travel.x + facet.rise_y * travel.y <= 0) return true;
         for (double away = 0.01 * field.spacing;; away += field.spacing) {
             const double ray = facet.height + away * tangent;
-            if (!(ray <= top)) return false;
+            if (!(ray <= top) || (is_near && away > level)) return false;
             const glm::dvec2 below = at - away * travel;
             if (field.facet_at(below.x, below.y).height > ray + 1e-7) return true;
         }

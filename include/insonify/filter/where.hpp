@@ -49,7 +49,7 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input for a mask of another size
 template <class Pixel>
 image<Pixel> pixels_where(image_view<const std::uint8_t> mask, image_view<const Pixel> source) {
-    detail::check_size("pixels_where", mask.width(), mask.height(), {0, 0, source.width(), source.height()});
+    detail::check_size("where", mask.width(), mask.height(), {0, 0, source.width(), source.height()});
     int count = 0;
     for (int y = 0; y < mask.height(); ++y)
         for (const std::uint8_t chosen : mask.row(y)) count += chosen != 0 ? 1 : 0;

@@ -137,7 +137,8 @@ inline namespace INSONIFY_FLAGS {
 /// The level that a tone adds at a position, decibels.
 /// @throws invalid_input for a parameter out of its range, or a position that is not finite
 inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
-    detail::require_finite("position", position);
+    detail::require_range("position.x", position.x, -1e12, 1e12, "within 10^12 metres");
+    detail::require_range("position.y", position.y, -1e12, 1e12, "within 10^12 metres");
     return detail::tone_sampler(tone)(position);
 }
 

@@ -103,6 +103,7 @@ INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s) {
 INSONIFY_FUNCTION pose rest_on(const insonify::seabed::any& seabed, const mesh_view& shape, pose placement) {
     detail::require(!shape.positions.empty(), "shape.positions.size()", shape.positions.size(), "at least 1");
     detail::require_finite("pose.burial", placement.burial);
+    insonify::seabed::detail::require_position("pose.position", glm::dvec2(placement.position));
     pose bare = placement;
     bare.burial = 0;
     const affine map = to_world(bare);
@@ -110,6 +111,7 @@ INSONIFY_FUNCTION pose rest_on(const insonify::seabed::any& seabed, const mesh_v
     double clearance = std::numeric_limits<double>::infinity();
     for (const glm::vec3& p : shape.positions) {
         const glm::dvec3 world = transform_point(map, glm::dvec3(p));
+        if (!(numeric::abs(world.x) <= 1e9 && numeric::abs(world.y) <= 1e9)) continue;  // NaN, too
         const float height = insonify::seabed::at(bottom, world.x, world.y).height;
         if (numeric::is_finite(height)) clearance = (std::min)(clearance, world.z - static_cast<double>(height));
     }

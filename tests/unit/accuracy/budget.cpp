@@ -187,6 +187,35 @@ TEST_CASE("Settings are values: they can be read, changed and handed to render")
     CHECK(bare.shadow_edge_error == 0.25);
 }
 
+TEST_CASE("Settings of any picture size are ones that render takes") {
+    in::scene s;
+    s.seabed = in::seabed::flat{.surface = {.rms = 0}};
+    for (const int width : {8242, 16385, 32768}) {
+        const in::overhead rig{.altitude = 15.1f, .size = {width, 1}};
+        for (const auto& settings :
+             {in::accuracy::exact(rig), in::accuracy::settings_for({.shadow_edge = 1e-6}, s.seabed, rig)})
+            CHECK_NOTHROW(in::render(s, rig, settings.options<in::no_labels>()));
+    }
+}
+
+TEST_CASE("The ground truth of level ground is lit at the zenith and under near lights") {
+    const in::seabed::flat level{.surface = {.rms = 0}};
+    const auto error = [&](const in::overhead& rig) {
+        return in::accuracy::settings_for({}, level, rig).expected.shadow_edge;
+    };
+    CHECK(error({.size = {512, 512}, .grazing = 90_deg}) == 0);
+    for (const float distance : {100.0f, 12.0f})
+        CHECK(error({.size = {512, 512}, .grazing = 8_deg, .light_distance = distance}) == 0);
+}
+
+TEST_CASE("Near lights are measured against rays to the same light") {
+    const auto error = [](float distance) {
+        const in::overhead rig{.altitude = 10, .size = {512, 512}, .grazing = 8_deg, .light_distance = distance};
+        return in::accuracy::settings_for({.shadow_edge = 0.5}, in::seabed::ripples{}, rig).expected.shadow_edge;
+    };
+    CHECK(error(6) < 0.5);
+}
+
 TEST_CASE("Budgets and probes out of range are refused") {
     const in::overhead rig{.size = {32, 32}};
     const double nan = std::nan("");

@@ -137,6 +137,27 @@ TEST_CASE("range_gain_error() has the given level and length, and is the same in
     CHECK(decibels(tilted(499, 0)) == Approx(-0.005).margin(1e-4));
 }
 
+TEST_CASE("Filters by column take parts of a picture and masks, and noise of no level adds none") {
+    in::image<float> picture(64, 8, 1.0f);
+    in::image<std::uint8_t> none(64, 8, std::uint8_t{0}), some = none;
+    for (int x = 40; x < 50; ++x) some(x, 3) = 1;
+    const auto check = [&](const auto& filter) {
+        const auto whole = picture | filter;
+        CHECK((picture | in::where(none.view(), filter)) == picture);
+        const auto masked = picture | in::where(some.view(), filter);
+        for (int y = 0; y < 8; ++y)
+            for (int x = 0; x < 64; ++x) REQUIRE(masked(x, y) == (some(x, y) != 0 ? whole(x, y) : 1));
+        const auto part =
+            in::apply(picture.view().part(40, 0, 10, 8), filter, in::serial_executor{}, in::pixel_origin{40, 0});
+        for (int x = 0; x < 10; ++x) REQUIRE(part(x, 5) == whole(40 + x, 5));
+    };
+    check(in::range_gain_error{});
+    check(in::water_column{.noise = 0.1f});
+    const auto loud =
+        in::image<float>(1024, 1, 1.0f) | in::water_column{.bin = 1, .noise = 0, .absorption_per_km = 3000};
+    for (const float v : loud.pixels()) REQUIRE(std::isfinite(v));
+}
+
 TEST_CASE("ping_banding() scales whole pings by drift and jitter, by ping number") {
     const auto levels = [](const in::ping_banding& banding, int pings) {
         const auto picture = in::image<float>(3, pings, 1.0f) | banding;

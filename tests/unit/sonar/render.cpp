@@ -358,6 +358,12 @@ TEST_CASE("rest_on() puts a target in contact with the seabed; burial is added t
     p.burial = 0;
     CHECK(lowest(p) == Approx(0).margin(1e-6));
     REQUIRE_THROWS_AS(in::rest_on(seabed, {}, {}), in::invalid_input);
+    // Vertices that are not finite touch nothing.
+    in::mesh damaged = shape;
+    damaged.positions.push_back(glm::vec3(std::numeric_limits<float>::quiet_NaN()));
+    damaged.positions.push_back(glm::vec3(std::numeric_limits<float>::infinity(), 0, 0));
+    CHECK(in::rest_on(seabed, damaged, {.position = {3, 4, 77}, .burial = 0.1f}).position == p.position);
+    CHECK_THROWS_WITH(in::rest_on(seabed, shape, {.position = {1e25, 0, 0}}), ContainsSubstring("pose.position.x"));
 }
 
 TEST_CASE("Rigs out of range are refused by name and value") {

@@ -411,6 +411,27 @@ TEST_CASE("Seabed that cannot cast a shadow into the picture changes no pixel") 
     }
 }
 
+TEST_CASE("Targets below a gap in the seabed have the shadows that they have without seabed") {
+    in::seabed::heightfield rim{.heights = in::image<float>(121, 121, 0.0f), .origin = {-15, -15}, .spacing = 0.25};
+    for (int j = 0; j < 121; ++j)
+        for (int i = 0; i < 121; ++i)
+            if (std::abs(0.25 * i - 15) < 6 && std::abs(0.25 * j - 15) < 6) rim.heights(i, j) = std::nanf("");
+    for (const double depth : {3.0, 6.0})
+        for (const float distance : {std::numeric_limits<float>::infinity(), 30.0f}) {
+            in::overhead rig{.altitude = 4, .field_of_view = 1.2f, .size = {96, 96}, .grazing = 0.5f};
+            rig.light_distance = distance;
+            in::scene s;
+            s.add(in::cube{.size = {30, 30, 0.1f}}, {.position = {0, 0, -depth - 0.05}}, "floor");
+            s.add(in::cube{}, {.position = {0.3, 0.2, 0.5 - depth}}, "cube");
+            s.seabed = in::seabed::none{};
+            const auto bare = in::render(s, rig);
+            s.seabed = rim;
+            CAPTURE(depth, distance);
+            CHECK(in::render(s, rig).labels.shadow == bare.labels.shadow);
+            CHECK(bare.labels.targets[1].box.width() > 5);
+        }
+}
+
 TEST_CASE("A wall outside of the picture casts its shadow into it, over height / tan(elevation)") {
     in::seabed::heightfield field{.heights = in::image<float>(641, 641), .origin = {-20, -20}, .spacing = 0.0625};
     for (int j = 0; j < 641; ++j) field.heights(160, j) = 0.9f;  // at x = -10, 6 m before the picture

@@ -130,6 +130,13 @@ TEST_CASE("Closed forms are never NaN, also where a quantity does not exist") {
     CHECK(rg::height_from_slant(0, 0, 10) == 0);
 }
 
+TEST_CASE("Closed forms hold below the datum and far away") {
+    namespace geometry = in::range_geometry;
+    CHECK(geometry::ground_range(1, -5) == 0);
+    CHECK(geometry::apparent_ground(0, -5, -4) == 0);
+    CHECK(geometry::slant_shadow_length(1e200, 5, 1) == std::numeric_limits<double>::infinity());
+}
+
 TEST_CASE("Echoes and shadows of the four targets arrive where the table's closed forms say, within a bin") {
     for (const row& t : table)
         for (const auto& [expected, ground] : targets_of(t)) {
@@ -522,6 +529,49 @@ TEST_CASE("Gaps in the seabed return nothing, and do not occlude") {
     for (const float v : heard.image.row(0)) REQUIRE((v >= 0 && in::numeric::is_finite(v)));
     CHECK(heard.image(static_cast<int>(rg::slant_range(4.5, 2) / rig.bin()), 0) == 0);
     CHECK(heard.image(static_cast<int>(rg::slant_range(6.5, 2) / rig.bin()), 0) > 0);
+}
+
+TEST_CASE("Seabed in front of its edge returns what it does without one, level and pitched, in any window") {
+    const auto bins_of = [](const in::seabed::any& bottom, double altitude, double pitch, float first_range) {
+        in::scene s;
+        s.seabed = bottom;
+        const in::side_scan rig{.first_range = first_range, .range = 40, .bins = 400};
+        return in::record(s, std::vector<in::ping>{{.position = {0, 0, altitude}, .pitch = pitch}}, rig).image;
+    };
+    in::seabed::heightfield edged{.heights = in::image<float>(91, 121, 0.0f), .origin = {-60, -60}, .spacing = 1};
+    const in::seabed::flat level{.surface = {.rms = 0}};
+    for (const double altitude : {20.0, 30.0})
+        for (const double pitch : {0.0, 0.05})
+            for (const float first : {0.0f, 32.0f}) {
+                const auto whole = bins_of(level, altitude, pitch, first),
+                           part = bins_of(edged, altitude, pitch, first);
+                for (int b = 0; b < 400; ++b) {
+                    const double slant =
+                        static_cast<double>(first) + (b + 0.5) * (40 - static_cast<double>(first)) / 400;
+                    const double across = std::sqrt((std::max)(0.0, slant * slant - altitude * altitude));
+                    if (across < 0.2 * altitude || across > 29) continue;
+                    CAPTURE(altitude, pitch, first, b);
+                    REQUIRE(part(b, 0) == Approx(whole(b, 0)).epsilon(0.02));
+                }
+            }
+}
+
+TEST_CASE("Gains and losses beyond a float's range leave no NaN and no infinity") {
+    const auto check = [](const auto& equation, float range, int bins = 512) {
+        in::scene s;
+        s.seabed = in::seabed::ripples{};
+        s.add(in::cube{}, {.position = {20, 0.2, 0.5}}, "cube");
+        const in::side_scan rig{.pings = 2, .range = range, .bins = bins};
+        const auto picture = in::render(s, rig, in::record_options<>{}.with(equation));
+        for (const float v : picture.image.pixels()) REQUIRE(std::isfinite(v));
+    };
+    using in::sonar_equation, in::vertical_beam, in::level_gain, in::spreading_loss, in::absorption;
+    check(sonar_equation{vertical_beam{.beamwidth = 5_deg, .tilt = 20_deg, .side_lobes = 0}, level_gain{}}, 40);
+    check(sonar_equation{vertical_beam{.beamwidth = 10_deg, .tilt = 60_deg, .side_lobes = 0}, level_gain{}}, 40);
+    check(sonar_equation{spreading_loss{}, absorption{1070}, level_gain{}}, 200);
+    check(sonar_equation{spreading_loss{}, absorption{1070}, in::time_varied_gain{.absorption_per_km = 1070}}, 200);
+    check(sonar_equation{spreading_loss{}, absorption{322}, level_gain{}}, 400);
+    check(sonar_equation{in::source_level{300}, spreading_loss{}}, 40, 8192);
 }
 
 TEST_CASE("Intensities are finite and not negative in random scenes and rigs") {

@@ -132,7 +132,7 @@ class overhead_painter {
             for (int corner = 0; corner < 8 && !t.box.empty(); ++corner) {
                 const double z = transform_point(t.to_rig, t.box.corner(corner)).z;
                 top = (std::max)(top, z);
-                if (!has_bottom()) low = (std::min)(low, z);
+                if (bottom_.is_open()) low = (std::min)(low, z);
             }
         if (low > top) return {};
         const glm::dvec2 half = view_.half_extent(low);

@@ -29,19 +29,30 @@ inline void check_length(const char* name, float value) {
     require_range(name, value, 1, 1e9f, "1 to 1e9 pixels");
 }
 
-/// Multiplies pixels by a factor that depends on the column alone, computed once for each column.
-class column_gain {
+/// Pass of a range_gain_error: factors by column, computed once for each.
+template <class Error>
+class range_gain_law {
   public:
-    template <class DecibelsAt>
-    column_gain(int width, const DecibelsAt& decibels_at) {
-        for (int x = 0; x < width; ++x) factors_.push_back(static_cast<float>(from_decibels(decibels_at(x))));
+    explicit range_gain_law(const Error& e)
+        : e_(e), curve_(stream_key(e.seed, static_cast<std::uint32_t>(drift_stream::range_gain))) {}
+
+    void prepare(const pixel_area& area) {
+        first_ = area.x;
+        factors_.clear();
+        for (int i = 0; i < area.width; ++i)
+            factors_.push_back(static_cast<float>(from_decibels(
+                static_cast<double>(e_.slope) * ((i + 0.5) / area.width - 0.5) +
+                static_cast<double>(e_.rms) * smooth_noise((area.x + i) / static_cast<double>(e_.length), curve_))));
     }
     template <std::same_as<float> Pixel>
     Pixel operator()(Pixel intensity, int x, int) const {
-        return intensity * factors_[static_cast<std::size_t>(x)];
+        return intensity * factors_[static_cast<std::size_t>(x - first_)];
     }
 
   private:
+    Error e_;
+    philox_key curve_;
+    int first_ = 0;
     dynamic_array<float> factors_;
 };
 
@@ -86,33 +97,30 @@ struct range_gain_error {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a parameter out of its range
-    INSONIFY_TAGGED auto pass(image_view<const float> picture) const {
+    INSONIFY_TAGGED auto pass() const {
         detail::check_decibels("range_gain_error.rms", rms);
         detail::check_length("range_gain_error.length", length);
         detail::require_range("range_gain_error.slope", slope, -60, 60, "-60 to 60 dB");
-        const int width = picture.width();
-        const philox_key key = stream_key(seed, static_cast<std::uint32_t>(detail::drift_stream::range_gain));
-        return detail::column_gain(width, [&](int x) {
-            return static_cast<double>(slope) * ((x + 0.5) / width - 0.5) +
-                   static_cast<double>(rms) * detail::smooth_noise(x / static_cast<double>(length), key);
-        });
+        return detail::range_gain_law<range_gain_error>(*this);
     }
 };
 
 /// Pings that are brighter or darker than their neighbours, in decibels: drift over many pings, and independent jitter
 /// of each. Row `y` is ping first_ping + step * y, so that recordings made in pieces fit together.
 struct ping_banding {
-    float drift = 1;      ///< decibels (rms), 0 to 60
-    float length = 40;    ///< pings between nodes of the drift
-    float jitter = 0.5f;  ///< decibels (rms), 0 to 60
-    std::int64_t first_ping = 0;
-    int step = 1;  ///< 1 or -1
+    float drift = 1;              ///< decibels (rms), 0 to 60
+    float length = 40;            ///< pings between nodes of the drift
+    float jitter = 0.5f;          ///< decibels (rms), 0 to 60
+    std::int64_t first_ping = 0;  ///< within 2^61
+    int step = 1;                 ///< 1 or -1
     std::uint64_t seed = 1;
 
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a parameter out of its range
     INSONIFY_TAGGED auto pass() const {
+        constexpr std::int64_t farthest = std::int64_t{1} << 61;
+        detail::require_range("ping_banding.first_ping", first_ping, -farthest, farthest, "within 2^61");
         detail::check_decibels("ping_banding.drift", drift);
         detail::check_length("ping_banding.length", length);
         detail::check_decibels("ping_banding.jitter", jitter);

@@ -27,7 +27,7 @@ inline double slant_range(double ground, double altitude, double height = 0) {
 
 /// Distance across the track of the seabed at a slant range; 0 in the water column.
 inline double ground_range(double slant, double altitude) {
-    return slant > altitude ? numeric::square_root(slant * slant - altitude * altitude) : 0;
+    return slant > numeric::abs(altitude) ? numeric::square_root(slant * slant - altitude * altitude) : 0;
 }
 
 /// Angle of the ray with the seabed, radians: pi / 2 below the sonar.
@@ -48,7 +48,8 @@ inline double shadow_length(double ground, double altitude, double height) {
 /// Length of a shadow in a picture of slant ranges, from the echo of the point that casts it.
 inline double slant_shadow_length(double ground, double altitude, double height) {
     if (!(height < altitude)) return std::numeric_limits<double>::infinity();
-    return slant_range(shadow_tip(ground, altitude, height), altitude) - slant_range(ground, altitude, height);
+    const double tip = slant_range(shadow_tip(ground, altitude, height), altitude);
+    return numeric::is_finite(tip) ? tip - slant_range(ground, altitude, height) : tip;
 }
 
 /// Apparent position of a raised point after slant-range correction: layover moves it towards the sonar, at most to 0.

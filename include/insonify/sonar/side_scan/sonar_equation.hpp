@@ -97,6 +97,13 @@ struct noise_floor {
     INSONIFY_MEMBER double noise() const { return static_cast<double>(intensity); }
 };
 
+namespace detail {
+
+/// Backscatter at smaller grazing angles is that at this one, by its sine.
+inline constexpr float least_grazing_sine = 1e-3f;
+
+}  // namespace detail
+
 /// The echo of level seabed that gains are computed for.
 struct flat_echo {
     double range, altitude;  ///< metres
@@ -244,7 +251,9 @@ class sonar_equation {
         const auto level_at = [&](double sine) {
             const double cosine = numeric::square_root(1 - sine * sine);
             const double length = e.counts_time ? e.bin / cosine : e.bin;
-            return static_cast<double>(law(static_cast<float>(sine))) * length * e.spacing *
+            // Rays take the law from the same angle up.
+            const double clamped = (std::max)(sine, static_cast<double>(detail::least_grazing_sine));
+            return static_cast<double>(law(static_cast<float>(clamped))) * (sine / clamped) * length * e.spacing *
                    over_direction(cosine, sine) * over_range(e.range, e.spacing);
         };
         return product([&](const auto& p) {

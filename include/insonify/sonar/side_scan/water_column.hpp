@@ -11,7 +11,9 @@
 #include <insonify/sonar/detail/smooth_noise.hpp>
 #include <insonify/sonar/side_scan/sonar_equation.hpp>
 
+#include <algorithm>
 #include <concepts>
+#include <limits>
 #include <type_traits>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -25,26 +27,33 @@ namespace detail::inline INSONIFY_FLAGS {
 template <class Water>
 class water_law {
   public:
-    water_law(const Water& w, int bins)
-        : w_(w), key_(stream_key(w.seed, static_cast<std::uint32_t>(drift_stream::surface))) {
-        for (int x = 0; x < bins; ++x) {
-            const double over = range(x) / static_cast<double>(w.noise_range);
-            const double gain = numeric::pow(over, 0.1 * static_cast<double>(w.spreading)) *
-                                from_decibels(0.002 * static_cast<double>(w.absorption_per_km) *
-                                              (range(x) - static_cast<double>(w.noise_range)));
-            steady_.push_back(static_cast<float>(static_cast<double>(w.noise) * gain) + w.volume);
-        }
+    explicit water_law(const Water& w)
+        : w_(w), key_(stream_key(w.seed, static_cast<std::uint32_t>(drift_stream::surface))) {}
+
+    void prepare(const pixel_area& area) {
+        first_ = area.x;
+        steady_.clear();
+        for (int i = 0; i < area.width; ++i) steady_.push_back(noise_at(range(area.x + i)) + w_.volume);
     }
 
     template <std::same_as<float> Pixel>
     Pixel operator()(Pixel intensity, int x, int y) {
-        Pixel sum = intensity + steady_[static_cast<std::size_t>(x)];
+        Pixel sum = intensity + steady_[static_cast<std::size_t>(x - first_)];
         if (w_.surface > 0) sum += surface_at(x, y);
         return sum;
     }
 
   private:
     double range(int x) const { return static_cast<double>(w_.first_range) + (x + 0.5) * static_cast<double>(w_.bin); }
+    float noise_at(double range) const {
+        if (w_.noise == 0) return 0;
+        const double over = range / static_cast<double>(w_.noise_range);
+        const double gain = numeric::pow(over, 0.1 * static_cast<double>(w_.spreading)) *
+                            from_decibels(0.002 * static_cast<double>(w_.absorption_per_km) *
+                                          (range - static_cast<double>(w_.noise_range)));
+        return static_cast<float>(
+            (std::min)(static_cast<double>(w_.noise) * gain, static_cast<double>((std::numeric_limits<float>::max)())));
+    }
     float surface_at(int x, int y) {
         if (y != row_) {
             row_ = y;
@@ -61,7 +70,7 @@ class water_law {
     Water w_;
     philox_key key_;
     dynamic_array<float> steady_;
-    int row_ = -1;
+    int first_ = 0, row_ = -1;
     double begins_ = 0;
 };
 
@@ -89,7 +98,7 @@ struct water_column {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a parameter out of its range
-    INSONIFY_TAGGED auto pass(image_view<const float> picture) const {
+    INSONIFY_TAGGED auto pass() const {
         using detail::require_not_negative, detail::require_positive, detail::require_range;
         require_not_negative("water_column.first_range", first_range);
         require_positive("water_column.bin", bin);
@@ -103,7 +112,7 @@ struct water_column {
         require_positive("water_column.surface_tail", surface_tail);
         require_not_negative("water_column.waves", waves);
         require_range("water_column.wave_length", wave_length, 1, 1e9f, "1 to 1e9 pings");
-        return detail::water_law<water_column>(*this, picture.width());
+        return detail::water_law<water_column>(*this);
     }
 };
 

@@ -68,6 +68,8 @@ class sampled_bottom {
     }
 
     const seabed::heightfield& field() const { return field_; }
+    /// Whether what is below may be seen: there are vertices without data, or no samples at all.
+    bool is_open() const { return field_.heights.empty() || kind_ == surface_kind::open; }
     /// Bounds of the vertices' heights and the datum.
     float lowest() const { return lowest_; }
     float highest() const { return highest_; }

@@ -57,8 +57,8 @@ class bottom_profile {
             const auto height = static_cast<double>(v.height);
             points_[i] = {depth, v.slope_x * across.x + v.slope_y * across.y, v.slope_x * along.x + v.slope_y * along.y,
                           static_cast<std::uint8_t>(v.type)};
-            lowest_ = (std::min)(height, lowest_);  // ignores NaN
-            highest_ = (std::max)(height, highest_);
+            lowest_ = (std::min)(lowest_, height);  // in this order, NaN is ignored
+            highest_ = (std::max)(highest_, height);
         }
     }
 

@@ -110,7 +110,8 @@ class bottom_tiles {
     double side() const { return cells * spacing_; }
 
     std::pair<std::int64_t, std::int64_t> tile_of(const glm::dvec2& p) const {
-        for (const double c : {p.x, p.y}) require(c > -1e9 && c < 1e9, "ping.position", c, "within 1e9 metres");
+        require(p.x > -1e9 && p.x < 1e9, "ping.position.x", p.x, "within 1e9 metres, with its swath");
+        require(p.y > -1e9 && p.y < 1e9, "ping.position.y", p.y, "within 1e9 metres, with its swath");
         return {numeric::floor_to_int(p.x * scale_) >> shift, numeric::floor_to_int(p.y * scale_) >> shift};
     }
 

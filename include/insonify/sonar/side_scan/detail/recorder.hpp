@@ -32,10 +32,13 @@ class bin_factors {
             altitude_ = altitude;
             values_.clear();
             for (std::size_t b = 0; b < static_cast<std::size_t>(bins); ++b)
-                values_.push_back(static_cast<float>(factor(b)));
+                values_.push_back(static_cast<float>((std::min)(factor(b), static_cast<double>(largest))));
         }
         return values_;
     }
+
+    /// In place of infinity, of which 0 would make NaN.
+    static constexpr float largest = (std::numeric_limits<float>::max)();
 
   private:
     dynamic_array<float> values_;
@@ -131,7 +134,8 @@ class recorder {
         const int row = static_cast<int>(number);
         const auto power = out_.image.row(row);
         for (std::size_t b = 0; b < bins.size(); ++b) power[b] = bins[b].bottom + bins[b].target;
-        for (std::size_t b = 0; b < losses.size(); ++b) power[b] *= losses[b];
+        for (std::size_t b = 0; b < losses.size(); ++b)
+            power[b] = (std::min)(power[b] * losses[b], bin_factors::largest);
         convolve_pulse(power, equation_.pulse_length() / window_.bin());
         if constexpr (labelled) {
             const auto instance = out_.labels.instance.row(row), shadow = out_.labels.shadow.row(row);
@@ -206,7 +210,8 @@ class recorder {
                         {slant_of(b, altitude), altitude, window_.bin(), spacing(), window_.counts_time});
                 });
                 const auto row = out_.image.row(static_cast<int>(i));
-                for (std::size_t b = 0; b < row.size(); ++b) row[b] = (row[b] + noise) * gain[b];
+                for (std::size_t b = 0; b < row.size(); ++b)
+                    row[b] = (std::min)((row[b] + noise) * gain[b], bin_factors::largest);
             }
         });
     }
