@@ -538,7 +538,9 @@ TEST_CASE("Seabed in front of its edge returns what it does without one, level a
         const in::side_scan rig{.first_range = first_range, .range = 40, .bins = 400};
         return in::record(s, std::vector<in::ping>{{.position = {0, 0, altitude}, .pitch = pitch}}, rig).image;
     };
-    in::seabed::heightfield edged{.heights = in::image<float>(91, 121, 0.0f), .origin = {-60, -60}, .spacing = 1};
+    in::seabed::heightfield edged{.heights = in::image<float>(121, 121, 0.0f), .origin = {-60, -60}, .spacing = 1};
+    for (int j = 0; j < 121; ++j)
+        for (int i = 91; i < 121; ++i) edged.heights(i, j) = std::numeric_limits<float>::quiet_NaN();
     const in::seabed::flat level{.surface = {.rms = 0}};
     for (const double altitude : {20.0, 30.0})
         for (const double pitch : {0.0, 0.05})
