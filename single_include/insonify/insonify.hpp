@@ -285,15 +285,15 @@ class block_pool {
     INSONIFY_TAGGED void* allocate(std::size_t bytes) {
         const std::size_t size = size_class(bytes);
         void* memory = take_kept(size);
-        if (memory == nullptr) memory = ::operator new (size, std::align_val_t{alignment});
+        if (memory == nullptr) memory = fresh_block(size);
         const guard lock(busy_);
         in_use_ += size;
         peak_ = (std::max)(peak_, in_use_);
         return memory;
     }
 
-    /// Keeps a block for later. Frees the oldest kept ones so that kept blocks and those in use together stay within
-    /// 1.5 times the peak in use since the last release.
+    /// Keeps a block for later. Frees the oldest kept ones so that kept blocks and those in use together are then
+    /// within 1.5 times the peak in use since the last release.
     INSONIFY_TAGGED void deallocate(void* memory, std::size_t bytes) noexcept {
         const std::size_t size = size_class(bytes);
         const guard lock(busy_);
@@ -343,6 +343,15 @@ class block_pool {
         for (int i = count_ - 1; i >= 0; --i)
             if (blocks_[i].size == size) return take(i);
         return nullptr;
+    }
+    INSONIFY_TAGGED void* fresh_block(std::size_t size) {
+        const std::align_val_t aligned{alignment};
+        if (void* const memory = ::operator new(size, aligned, std::nothrow)) return memory;
+        {
+            const guard lock(busy_);  // what is kept may be what is lacking
+            while (count_ > 0) free_oldest();
+        }
+        return ::operator new(size, aligned);
     }
     INSONIFY_TAGGED static void free_block(void* memory) noexcept {
         ::operator delete (memory, std::align_val_t{alignment});
@@ -582,7 +591,10 @@ namespace detail::inline INSONIFY_FLAGS {
 /// The scratch memory of an executor that is a context; null for others.
 template <class E>
 shared_pool memory_of(const E& ex) {
-    if constexpr (requires { ex.memory(); }) return ex.memory();
+    if constexpr (requires {
+                      { ex.memory() } -> std::convertible_to<shared_pool>;
+                  })
+        return ex.memory();
     return {};
 }
 
@@ -626,7 +638,7 @@ inline namespace INSONIFY_FLAGS {
 template <executor E, std::invocable<std::size_t, std::size_t> Fn>
 void bulk_ranges(E& ex, std::size_t count, std::size_t grain, Fn&& fn) {
     detail::require(grain > 0, "grain", grain, "at least 1");
-    ex.bulk((count + grain - 1) / grain, [&](std::size_t run) {
+    ex.bulk(count / grain + (count % grain != 0 ? 1 : 0), [&](std::size_t run) {
         const std::size_t first = run * grain;
         fn(first, count - first < grain ? count : first + grain);
     });
@@ -651,7 +663,7 @@ inline namespace INSONIFY_ABI {
 ///     for (const in::scene& scene : scenes) save(in::render(scene, rig, {}, context));
 ///
 /// Results are ordinary values: they may outlive the context, be destroyed on another thread, and their copies
-/// allocate afresh. Memory kept and in use together never exceeds 1.5 times the peak in use.
+/// allocate afresh. What is kept never exceeds 1.5 times the peak in use.
 class context {
   public:
     /// Runs everything on the calling thread.
@@ -970,8 +982,17 @@ class image {
     }
 
     image(const image&) = default;
-    image(image&&) = default;
-    image& operator=(image&&) = default;
+    /// The other image is empty afterwards.
+    INSONIFY_MEMBER image(image&& other) noexcept
+        : width_(std::exchange(other.width_, 0)),
+          height_(std::exchange(other.height_, 0)),
+          pixels_(std::move(other.pixels_)) {}
+    INSONIFY_MEMBER image& operator=(image&& other) noexcept {
+        pixels_ = std::move(other.pixels_);
+        width_ = std::exchange(other.width_, 0);
+        height_ = std::exchange(other.height_, 0);
+        return *this;
+    }
     /// If allocation fails, the image is unchanged.
     image& operator=(const image& other) {
         pixels_ = other.pixels_;
@@ -7727,7 +7748,7 @@ enum class depth_precision {
     quick,  ///< in float: within a few units in the last place, clamped to the vertices' depths; a third less time
 };
 
-/// Options of a draw. `tile` and `level` never change the result.
+/// Options of a draw. `tile` and `level` never change the result, but for the sign of zeros in the depth buffer.
 template <depth_precision Depth = depth_precision::exact>
 struct draw_options {
     cull_mode cull = cull_mode::none;
@@ -10192,7 +10213,7 @@ namespace shadow {
 /// Light from infinitely far away.
 struct directional_light {
     double azimuth = 0;                         ///< radians: where it travels to, from +x towards +y
-    double elevation = numeric::to_radians(6);  ///< radians above the horizon, in (0, pi / 2]
+    double elevation = numeric::to_radians(6);  ///< radians above the horizon, 10^-9 to pi / 2
 };
 
 /// Light from a point nearby.
@@ -10208,15 +10229,16 @@ inline namespace INSONIFY_FLAGS {
 /// Frame of a directional light; coordinates are metres.
 class light_frame {
   public:
-    /// @throws invalid_input for an elevation outside (0, pi / 2] or an azimuth beyond 10^6 radians
+    /// @throws invalid_input for an elevation outside 10^-9 to pi / 2 or an azimuth beyond 10^6 radians
     explicit light_frame(const directional_light& light) {
-        insonify::detail::require(light.elevation > 0 && light.elevation <= numeric::pi / 2 + 1e-7, "elevation",
-                                  light.elevation, "above 0 and at most pi / 2");
+        insonify::detail::require(light.elevation >= 1e-9 && light.elevation <= numeric::pi / 2 + 1e-7, "elevation",
+                                  light.elevation, "10^-9 to pi / 2");
         insonify::detail::require_angle("azimuth", light.azimuth);
         const auto [sin_azimuth, cos_azimuth] = numeric::sin_cos(light.azimuth);
-        const auto [sin_elevation, cos_elevation] = numeric::sin_cos(light.elevation);
+        const auto [sin_elevation, cosine] = numeric::sin_cos(light.elevation);
+        const double cos_elevation = (std::max)(cosine, 0.0);  // floats near pi / 2 are beyond the zenith
         travel_ = {cos_azimuth, sin_azimuth};
-        cot_ = cos_elevation > 0 ? cos_elevation / sin_elevation : 0;
+        cot_ = cos_elevation / sin_elevation;
         to_light_ = {-cos_azimuth * cos_elevation, -sin_azimuth * cos_elevation, sin_elevation};
     }
 
@@ -11198,8 +11220,8 @@ inline void validate(const overhead& rig) {
             "overhead.field_of_view", rig.field_of_view, "above 0 and below 179.9 degrees, in radians");
     require_range("overhead.size.x", rig.size.x, 1, 32768, "1 to 32768");
     require_range("overhead.size.y", rig.size.y, 1, 32768, "1 to 32768");
-    require(rig.grazing > 0 && static_cast<double>(rig.grazing) <= numeric::pi / 2 + 1e-7, "overhead.grazing",
-            rig.grazing, "above 0 and at most pi / 2");
+    require(rig.grazing >= 1e-9f && static_cast<double>(rig.grazing) <= numeric::pi / 2 + 1e-7, "overhead.grazing",
+            rig.grazing, "10^-9 to pi / 2");
     detail::require_angle("overhead.light_azimuth", rig.light_azimuth);
     require(rig.light_distance > 0, "overhead.light_distance", rig.light_distance, "above 0 metres");
     require_not_negative("overhead.intensity", rig.intensity);
@@ -11657,25 +11679,25 @@ class tile_bins {
     /// @param chunks  the runs of all chunks, in submission order
     template <executor E>
     tile_bins(std::span<const tile_runs> chunks, const tile_grid& grid, E& ex) : first_(grid.count() + 1, 0) {
-        // How many runs each chunk has in each tile; then, where it puts the next one.
+        // How many runs each chunk has in each tile; then, where in the tile it puts the next one.
         const std::size_t tiles = grid.count();
         dynamic_array<std::uint32_t> positions(chunks.size() * tiles, 0);
         const auto of_chunk = [&](std::size_t chunk) { return std::span(positions).subspan(chunk * tiles, tiles); };
         ex.bulk(chunks.size(), [&](std::size_t chunk) {
             chunks[chunk].for_each(grid, [&](std::size_t tile, const triangle_run&) { ++of_chunk(chunk)[tile]; });
         });
-        for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk)
-            for (std::size_t tile = 0; tile < tiles; ++tile) first_[tile + 1] += of_chunk(chunk)[tile];
-        for (std::size_t tile = 0; tile < tiles; ++tile) first_[tile + 1] += first_[tile];
-        dynamic_array<std::uint32_t> next = first_;
+        dynamic_array<std::uint32_t> next(tiles, 0);
         for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk)
             for (std::size_t tile = 0; tile < tiles; ++tile)
                 next[tile] += std::exchange(of_chunk(chunk)[tile], next[tile]);
+        // A tile has at most as many runs as there are triangles; all tiles together may have more than 2^32.
+        for (std::size_t tile = 0; tile < tiles; ++tile) first_[tile + 1] = first_[tile] + next[tile];
 
         runs_ = uninitialized_array<triangle_run>(first_.back(), memory_of(ex));
         ex.bulk(chunks.size(), [&](std::size_t chunk) {
-            chunks[chunk].for_each(
-                grid, [&](std::size_t tile, const triangle_run& run) { runs_[of_chunk(chunk)[tile]++] = run; });
+            chunks[chunk].for_each(grid, [&](std::size_t tile, const triangle_run& run) {
+                runs_[first_[tile] + of_chunk(chunk)[tile]++] = run;
+            });
         });
     }
 
@@ -11684,7 +11706,7 @@ class tile_bins {
     }
 
   private:
-    dynamic_array<std::uint32_t> first_;
+    dynamic_array<std::size_t> first_;
     uninitialized_array<triangle_run> runs_;
 };
 
@@ -12307,13 +12329,16 @@ class screen_polygon {
             const int128 part = wide_area(at(0), at(i), at(i + 1));
             area = area + part;
             turns_[part.sign() + 1] = true;
-            const int128 size = part.sign() < 0 ? -part : part;
+        }
+        area_sign_ = area.sign();
+        // The largest part on the side that the whole shows.
+        for (int i = 1; i + 1 < count_; ++i) {
+            const int128 part = wide_area(at(0), at(i), at(i + 1)), size = area_sign_ < 0 ? -part : part;
             if ((size - largest_).sign() > 0) {
                 largest_ = size;
                 largest_part_ = i;
             }
         }
-        area_sign_ = area.sign();
     }
 
     const screen_vertex& at(int corner) const { return corners_[static_cast<std::size_t>(corner)]; }
@@ -14296,7 +14321,8 @@ inline namespace INSONIFY_FLAGS {
 /// @param target   depth image; each side at most 2^(30 - subpixel_bits) pixels and 2^16 tiles (2^22 pixels by default)
 /// @param options  see draw_options; `draw_options<depth_precision::quick>` for depths in float
 /// @param ex       runs the stages; the result is the same bytes for any executor
-/// @returns the number of triangles by outcome, and of shaded pixels
+/// @returns the number of triangles by outcome, and of shaded pixels; zeros for an empty target, for which nothing is
+/// done
 /// @throws invalid_input for an index without a position, a number of normals that is neither 0 nor that of positions,
 ///         or options out of range; the target is then untouched
 template <vertex_shader VertexShader, depth_precision Depth = depth_precision::exact,

@@ -17,7 +17,7 @@ inline namespace INSONIFY_ABI {
 ///     for (const in::scene& scene : scenes) save(in::render(scene, rig, {}, context));
 ///
 /// Results are ordinary values: they may outlive the context, be destroyed on another thread, and their copies
-/// allocate afresh. Memory kept and in use together never exceeds 1.5 times the peak in use.
+/// allocate afresh. What is kept never exceeds 1.5 times the peak in use.
 class context {
   public:
     /// Runs everything on the calling thread.

@@ -37,7 +37,10 @@ namespace detail::inline INSONIFY_FLAGS {
 /// The scratch memory of an executor that is a context; null for others.
 template <class E>
 shared_pool memory_of(const E& ex) {
-    if constexpr (requires { ex.memory(); }) return ex.memory();
+    if constexpr (requires {
+                      { ex.memory() } -> std::convertible_to<shared_pool>;
+                  })
+        return ex.memory();
     return {};
 }
 
@@ -81,7 +84,7 @@ inline namespace INSONIFY_FLAGS {
 template <executor E, std::invocable<std::size_t, std::size_t> Fn>
 void bulk_ranges(E& ex, std::size_t count, std::size_t grain, Fn&& fn) {
     detail::require(grain > 0, "grain", grain, "at least 1");
-    ex.bulk((count + grain - 1) / grain, [&](std::size_t run) {
+    ex.bulk(count / grain + (count % grain != 0 ? 1 : 0), [&](std::size_t run) {
         const std::size_t first = run * grain;
         fn(first, count - first < grain ? count : first + grain);
     });

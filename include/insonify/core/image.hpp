@@ -63,8 +63,17 @@ class image {
     }
 
     image(const image&) = default;
-    image(image&&) = default;
-    image& operator=(image&&) = default;
+    /// The other image is empty afterwards.
+    INSONIFY_MEMBER image(image&& other) noexcept
+        : width_(std::exchange(other.width_, 0)),
+          height_(std::exchange(other.height_, 0)),
+          pixels_(std::move(other.pixels_)) {}
+    INSONIFY_MEMBER image& operator=(image&& other) noexcept {
+        pixels_ = std::move(other.pixels_);
+        width_ = std::exchange(other.width_, 0);
+        height_ = std::exchange(other.height_, 0);
+        return *this;
+    }
     /// If allocation fails, the image is unchanged.
     image& operator=(const image& other) {
         pixels_ = other.pixels_;

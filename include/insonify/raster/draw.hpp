@@ -79,7 +79,8 @@ inline namespace INSONIFY_FLAGS {
 /// @param target   depth image; each side at most 2^(30 - subpixel_bits) pixels and 2^16 tiles (2^22 pixels by default)
 /// @param options  see draw_options; `draw_options<depth_precision::quick>` for depths in float
 /// @param ex       runs the stages; the result is the same bytes for any executor
-/// @returns the number of triangles by outcome, and of shaded pixels
+/// @returns the number of triangles by outcome, and of shaded pixels; zeros for an empty target, for which nothing is
+/// done
 /// @throws invalid_input for an index without a position, a number of normals that is neither 0 nor that of positions,
 ///         or options out of range; the target is then untouched
 template <vertex_shader VertexShader, depth_precision Depth = depth_precision::exact,

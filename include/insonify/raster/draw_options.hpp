@@ -40,7 +40,7 @@ enum class depth_precision {
     quick,  ///< in float: within a few units in the last place, clamped to the vertices' depths; a third less time
 };
 
-/// Options of a draw. `tile` and `level` never change the result.
+/// Options of a draw. `tile` and `level` never change the result, but for the sign of zeros in the depth buffer.
 template <depth_precision Depth = depth_precision::exact>
 struct draw_options {
     cull_mode cull = cull_mode::none;

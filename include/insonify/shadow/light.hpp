@@ -9,6 +9,7 @@
 #include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
 
+#include <algorithm>
 #include <variant>
 
 #include <glm/vec2.hpp>
@@ -23,7 +24,7 @@ namespace shadow {
 /// Light from infinitely far away.
 struct directional_light {
     double azimuth = 0;                         ///< radians: where it travels to, from +x towards +y
-    double elevation = numeric::to_radians(6);  ///< radians above the horizon, in (0, pi / 2]
+    double elevation = numeric::to_radians(6);  ///< radians above the horizon, 10^-9 to pi / 2
 };
 
 /// Light from a point nearby.
@@ -39,15 +40,16 @@ inline namespace INSONIFY_FLAGS {
 /// Frame of a directional light; coordinates are metres.
 class light_frame {
   public:
-    /// @throws invalid_input for an elevation outside (0, pi / 2] or an azimuth beyond 10^6 radians
+    /// @throws invalid_input for an elevation outside 10^-9 to pi / 2 or an azimuth beyond 10^6 radians
     explicit light_frame(const directional_light& light) {
-        insonify::detail::require(light.elevation > 0 && light.elevation <= numeric::pi / 2 + 1e-7, "elevation",
-                                  light.elevation, "above 0 and at most pi / 2");
+        insonify::detail::require(light.elevation >= 1e-9 && light.elevation <= numeric::pi / 2 + 1e-7, "elevation",
+                                  light.elevation, "10^-9 to pi / 2");
         insonify::detail::require_angle("azimuth", light.azimuth);
         const auto [sin_azimuth, cos_azimuth] = numeric::sin_cos(light.azimuth);
-        const auto [sin_elevation, cos_elevation] = numeric::sin_cos(light.elevation);
+        const auto [sin_elevation, cosine] = numeric::sin_cos(light.elevation);
+        const double cos_elevation = (std::max)(cosine, 0.0);  // floats near pi / 2 are beyond the zenith
         travel_ = {cos_azimuth, sin_azimuth};
-        cot_ = cos_elevation > 0 ? cos_elevation / sin_elevation : 0;
+        cot_ = cos_elevation / sin_elevation;
         to_light_ = {-cos_azimuth * cos_elevation, -sin_azimuth * cos_elevation, sin_elevation};
     }
 

@@ -30,6 +30,15 @@ in::frame<> picture(auto& ex, int side = 256) {
     return in::render(scene, in::overhead{.altitude = 4, .size = {side, side}}, {}, ex);
 }
 
+/// An executor whose memory() is no scratch memory.
+struct counted_executor {
+    std::size_t memory() const { return 0; }
+    template <class Fn>
+    void bulk(std::size_t count, Fn&& fn) const {
+        for (std::size_t i = 0; i < count; ++i) fn(i);
+    }
+};
+
 }  // namespace
 
 TEST_CASE("A context runs its executor's loops, and serial ones without an executor") {
@@ -150,6 +159,11 @@ TEST_CASE("A pool keeps at most 1.5 times its peak use, and frees the oldest blo
     CHECK(pool.kept_bytes() == 8 * megabyte);
     pool.release();
     CHECK(pool.kept_bytes() == 0);
+}
+
+TEST_CASE("An executor may have a memory() of its own") {
+    counted_executor ex;
+    CHECK(in::render(in::scene{}, in::overhead{.size = {8, 8}}, in::render_options<>{}, ex).image.width() == 8);
 }
 
 TEST_CASE("Threads that share a context never get the same block") {

@@ -3,6 +3,7 @@
 #include <insonify/core/thread_pool.hpp>
 
 #include <atomic>
+#include <limits>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -123,4 +124,11 @@ TEST_CASE("bulk_ranges() splits at multiples of the grain for any executor", "[t
     in::bulk_ranges(serial, 3, 100, [&](std::size_t first, std::size_t last) { made += first == 0 && last == 3; });
     CHECK(made == 1);
     CHECK_THROWS_AS(in::bulk_ranges(serial, 3, 0, [](std::size_t, std::size_t) {}), in::invalid_input);
+    // A grain beyond the count is one run, however large it is.
+    int calls = 0;
+    in::bulk_ranges(serial, 10, std::numeric_limits<std::size_t>::max(), [&](std::size_t first, std::size_t last) {
+        CHECK((first == 0 && last == 10));
+        ++calls;
+    });
+    CHECK(calls == 1);
 }

@@ -41,6 +41,17 @@ TEST_CASE("An image refuses sizes out of range and rows of different lengths, an
     CHECK_THROWS_WITH((in::image<int>{{0, 1}, {2}}), ContainsSubstring("row length is 1"));
 }
 
+TEST_CASE("An image that was moved from is empty") {
+    in::image<int> from(4, 3, 7), to;
+    to = std::move(from);
+    const in::image<int> last = std::move(to);
+    CHECK((last.width() == 4 && last.height() == 3 && last(3, 2) == 7));
+    for (const in::image<int>* const moved : {&from, &to}) {
+        CHECK((moved->width() == 0 && moved->height() == 0));
+        CHECK(moved->view().empty());
+    }
+}
+
 TEST_CASE("A view shares the pixels of its image") {
     in::image<int> table{{0, 1, 2}, {10, 11, 12}};
     const in::image_view<int> view = table;

@@ -1,6 +1,9 @@
 // Clipped polygons that snapping folds over themselves, against a sum of triangles judged by an exact oracle.
 #include <insonify/core/random.hpp>
 #include <insonify/raster/detail/screen_polygon.hpp>
+#include <insonify/raster/draw.hpp>
+
+#include <algorithm>
 
 #include "../../catch.hpp"
 #include "pixel_space.hpp"
@@ -116,4 +119,18 @@ TEST_CASE("A run of a folded polygon is drawn to its ends and no further") {
         }
     }
     CHECK(folded > 5);
+}
+
+TEST_CASE("Fragments of a folded polygon show the side that culling goes by") {
+    in::mesh m{std::vector<glm::vec3>(3), {}, {{0, 1, 2}}};
+    const glm::vec4 clip[] = {{0.852287352f, 0.104839139f, 1.15889204f, 0.92725271f},
+                              {-0.300366759f, 0.33705771f, -0.33109355f, 0.821128845f},
+                              {-0.748941541f, 0.749838054f, 1.50292158f, 1.76830506f}};
+    in::image<float> depth(32, 32, in::empty_depth(in::keep_depth::smaller));
+    in::image<int> front(32, 32, -1);
+    in::draw(
+        m, [&](const in::vertex& v) { return clip[v.index]; }, [](const auto& f) { return f.front ? 1 : 0; },
+        in::framebuffer<int>{front, depth}, {.cull = in::cull_mode::front, .subpixel_bits = 4});
+    CHECK(std::count(front.pixels().begin(), front.pixels().end(), 1) == 0);
+    CHECK(std::count(front.pixels().begin(), front.pixels().end(), 0) > 0);
 }

@@ -167,6 +167,13 @@ TEST_CASE("A point in a penumbra is lit by the visible fraction of the disc, und
     }
 }
 
+TEST_CASE("Light from the float nearest to pi / 2 comes from the zenith, not from beyond") {
+    const shadow::light_frame frame({0.3, static_cast<double>(static_cast<float>(in::numeric::pi / 2))});
+    CHECK((frame.to_light().x == 0 && frame.to_light().y == 0));
+    CHECK(frame.cot_elevation() == 0);
+    CHECK_THROWS_WITH(shadow::light_frame({0, 1e-39}), ContainsSubstring("elevation is 1e-39"));
+}
+
 TEST_CASE("Samples of a penumbra behind a facet's plane do not light it") {
     const in::mesh m = sheet(-std::tan(radians(29.5)));  // half a degree to the light at 30 degrees
     const shadow::caster casters[] = {caster_of(m)};

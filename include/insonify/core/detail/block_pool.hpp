@@ -34,15 +34,15 @@ class block_pool {
     INSONIFY_TAGGED void* allocate(std::size_t bytes) {
         const std::size_t size = size_class(bytes);
         void* memory = take_kept(size);
-        if (memory == nullptr) memory = ::operator new (size, std::align_val_t{alignment});
+        if (memory == nullptr) memory = fresh_block(size);
         const guard lock(busy_);
         in_use_ += size;
         peak_ = (std::max)(peak_, in_use_);
         return memory;
     }
 
-    /// Keeps a block for later. Frees the oldest kept ones so that kept blocks and those in use together stay within
-    /// 1.5 times the peak in use since the last release.
+    /// Keeps a block for later. Frees the oldest kept ones so that kept blocks and those in use together are then
+    /// within 1.5 times the peak in use since the last release.
     INSONIFY_TAGGED void deallocate(void* memory, std::size_t bytes) noexcept {
         const std::size_t size = size_class(bytes);
         const guard lock(busy_);
@@ -92,6 +92,15 @@ class block_pool {
         for (int i = count_ - 1; i >= 0; --i)
             if (blocks_[i].size == size) return take(i);
         return nullptr;
+    }
+    INSONIFY_TAGGED void* fresh_block(std::size_t size) {
+        const std::align_val_t aligned{alignment};
+        if (void* const memory = ::operator new(size, aligned, std::nothrow)) return memory;
+        {
+            const guard lock(busy_);  // what is kept may be what is lacking
+            while (count_ > 0) free_oldest();
+        }
+        return ::operator new(size, aligned);
     }
     INSONIFY_TAGGED static void free_block(void* memory) noexcept {
         ::operator delete (memory, std::align_val_t{alignment});

@@ -173,25 +173,25 @@ class tile_bins {
     /// @param chunks  the runs of all chunks, in submission order
     template <executor E>
     tile_bins(std::span<const tile_runs> chunks, const tile_grid& grid, E& ex) : first_(grid.count() + 1, 0) {
-        // How many runs each chunk has in each tile; then, where it puts the next one.
+        // How many runs each chunk has in each tile; then, where in the tile it puts the next one.
         const std::size_t tiles = grid.count();
         dynamic_array<std::uint32_t> positions(chunks.size() * tiles, 0);
         const auto of_chunk = [&](std::size_t chunk) { return std::span(positions).subspan(chunk * tiles, tiles); };
         ex.bulk(chunks.size(), [&](std::size_t chunk) {
             chunks[chunk].for_each(grid, [&](std::size_t tile, const triangle_run&) { ++of_chunk(chunk)[tile]; });
         });
-        for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk)
-            for (std::size_t tile = 0; tile < tiles; ++tile) first_[tile + 1] += of_chunk(chunk)[tile];
-        for (std::size_t tile = 0; tile < tiles; ++tile) first_[tile + 1] += first_[tile];
-        dynamic_array<std::uint32_t> next = first_;
+        dynamic_array<std::uint32_t> next(tiles, 0);
         for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk)
             for (std::size_t tile = 0; tile < tiles; ++tile)
                 next[tile] += std::exchange(of_chunk(chunk)[tile], next[tile]);
+        // A tile has at most as many runs as there are triangles; all tiles together may have more than 2^32.
+        for (std::size_t tile = 0; tile < tiles; ++tile) first_[tile + 1] = first_[tile] + next[tile];
 
         runs_ = uninitialized_array<triangle_run>(first_.back(), memory_of(ex));
         ex.bulk(chunks.size(), [&](std::size_t chunk) {
-            chunks[chunk].for_each(
-                grid, [&](std::size_t tile, const triangle_run& run) { runs_[of_chunk(chunk)[tile]++] = run; });
+            chunks[chunk].for_each(grid, [&](std::size_t tile, const triangle_run& run) {
+                runs_[first_[tile] + of_chunk(chunk)[tile]++] = run;
+            });
         });
     }
 
@@ -200,7 +200,7 @@ class tile_bins {
     }
 
   private:
-    dynamic_array<std::uint32_t> first_;
+    dynamic_array<std::size_t> first_;
     uninitialized_array<triangle_run> runs_;
 };
 

@@ -31,13 +31,16 @@ class screen_polygon {
             const int128 part = wide_area(at(0), at(i), at(i + 1));
             area = area + part;
             turns_[part.sign() + 1] = true;
-            const int128 size = part.sign() < 0 ? -part : part;
+        }
+        area_sign_ = area.sign();
+        // The largest part on the side that the whole shows.
+        for (int i = 1; i + 1 < count_; ++i) {
+            const int128 part = wide_area(at(0), at(i), at(i + 1)), size = area_sign_ < 0 ? -part : part;
             if ((size - largest_).sign() > 0) {
                 largest_ = size;
                 largest_part_ = i;
             }
         }
-        area_sign_ = area.sign();
     }
 
     const screen_vertex& at(int corner) const { return corners_[static_cast<std::size_t>(corner)]; }

@@ -47,8 +47,8 @@ inline void validate(const overhead& rig) {
             "overhead.field_of_view", rig.field_of_view, "above 0 and below 179.9 degrees, in radians");
     require_range("overhead.size.x", rig.size.x, 1, 32768, "1 to 32768");
     require_range("overhead.size.y", rig.size.y, 1, 32768, "1 to 32768");
-    require(rig.grazing > 0 && static_cast<double>(rig.grazing) <= numeric::pi / 2 + 1e-7, "overhead.grazing",
-            rig.grazing, "above 0 and at most pi / 2");
+    require(rig.grazing >= 1e-9f && static_cast<double>(rig.grazing) <= numeric::pi / 2 + 1e-7, "overhead.grazing",
+            rig.grazing, "10^-9 to pi / 2");
     detail::require_angle("overhead.light_azimuth", rig.light_azimuth);
     require(rig.light_distance > 0, "overhead.light_distance", rig.light_distance, "above 0 metres");
     require_not_negative("overhead.intensity", rig.intensity);
