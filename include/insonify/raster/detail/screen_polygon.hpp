@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -70,13 +71,32 @@ class screen_polygon {
             all = {(std::min)(all.x0, r.x0), (std::min)(all.y0, r.y0), (std::max)(all.x1, r.x1),
                    (std::max)(all.y1, r.y1)};
         }
-        for (int y = all.y0; y < all.y1; ++y)
-            for (int x = all.x0; x < all.x1; ++x) {
+        for (int y = all.y0; y < all.y1; ++y) {
+            const auto [begin, end] = crossed(y, all.x0, all.x1, grid);
+            for (int x = begin; x < end; ++x) {
                 if (winding(x, y, grid) * area_sign_ <= 0) continue;
                 const int first = x;
-                while (x < all.x1 && winding(x, y, grid) * area_sign_ > 0) ++x;
+                while (x < end && winding(x, y, grid) * area_sign_ > 0) ++x;
                 part(plane, rect{first, y, x, y + 1}, true);
             }
+        }
+    }
+
+    /// Of the pixels [begin, end) of a row, those between its outermost crossings of the outline, two more on either
+    /// side for rounding. The winding number of all others is 0.
+    std::pair<int, int> crossed(int py, int begin, int end, const pixel_grid& grid) const {
+        const std::int64_t y = grid.center(py);
+        double left = end, right = begin;
+        for (int i = 0; i < count_; ++i) {
+            const screen_vertex &from = at(i), &to = at((i + 1) % count_);
+            if ((from.y <= y) == (to.y <= y)) continue;
+            const double share = static_cast<double>(y - from.y) / static_cast<double>(to.y - from.y);
+            const double x = (static_cast<double>(from.x) + share * static_cast<double>(to.x - from.x)) /
+                             static_cast<double>(grid.unit());
+            left = (std::min)(left, x - 2), right = (std::max)(right, x + 2);
+        }
+        return {static_cast<int>((std::max)(left, static_cast<double>(begin))),
+                static_cast<int>((std::min)(right, static_cast<double>(end)))};
     }
 
     /// The winding number of the outline around a pixel's centre, clockwise. The fill rule shifts the centre to the
