@@ -18695,11 +18695,11 @@ struct probe {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// The smallest cell that `render` takes.
-inline double least_cell(const overhead_geometry& view) {
+inline double min_cell(const overhead_geometry& view) {
     return 2 * (std::max)(view.half_extent(0).x, view.half_extent(0).y) / 32768;
 }
 /// The most sub-pixel bits that pictures of a rig take.
-inline int most_subpixel_bits(const overhead& rig) {
+inline int max_subpixel_bits(const overhead& rig) {
     return (std::max)(rig.size.x, rig.size.y) > 16384 ? 15 : 16;
 }
 
@@ -19004,7 +19004,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     settings<Shadow> found{.rig = rig};
     // Snapping moves a vertex by at most half a sub-pixel along each axis.
     if (tolerated.silhouette * 0.05 < 1.0 / (1 << found.subpixel_bits))
-        found.subpixel_bits = detail::most_subpixel_bits(rig);
+        found.subpixel_bits = detail::max_subpixel_bits(rig);
     found.silhouette_error = tolerated.silhouette;
     found.shadow_edge_error = 0.5 * tolerated.shadow_edge;
     if (bottom.empty()) return found;
@@ -19054,7 +19054,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         }
         found.shadow.texels_per_pixel = static_cast<float>(texels);
     }
-    found.cell = (std::max)(pixel / chosen, detail::least_cell(view));
+    found.cell = (std::max)(pixel / chosen, detail::min_cell(view));
     return found;
 }
 
@@ -19079,8 +19079,8 @@ inline settings<> balanced(const overhead& rig) {
 /// 16384 pixels.
 inline settings<> exact(const overhead& rig) {
     const overhead_geometry view(rig);
-    return {.cell = (std::max)(0.5 * view.ground_sampling(), detail::least_cell(view)),
-            .subpixel_bits = detail::most_subpixel_bits(rig),
+    return {.cell = (std::max)(0.5 * view.ground_sampling(), detail::min_cell(view)),
+            .subpixel_bits = detail::max_subpixel_bits(rig),
             .silhouette_error = 0.02,
             .shadow_edge_error = 0.02,
             .rig = rig};
@@ -23985,7 +23985,7 @@ struct noise_floor {
 namespace detail {
 
 /// Backscatter at smaller grazing angles is that at this one, by its sine.
-inline constexpr float least_grazing_sine = 1e-3f;
+inline constexpr float min_grazing_sine = 1e-3f;
 
 }  // namespace detail
 
@@ -24137,7 +24137,7 @@ class sonar_equation {
             const double cosine = numeric::square_root(1 - sine * sine);
             const double length = e.counts_time ? e.bin / cosine : e.bin;
             // Rays take the law from the same angle up.
-            const double clamped = (std::max)(sine, static_cast<double>(detail::least_grazing_sine));
+            const double clamped = (std::max)(sine, static_cast<double>(detail::min_grazing_sine));
             return static_cast<double>(law(static_cast<float>(clamped))) * (sine / clamped) * length * e.spacing *
                    over_direction(cosine, sine) * over_range(e.range, e.spacing);
         };
@@ -24577,8 +24577,8 @@ class bottom_tiles {
         }
         columns_ = last_x - first_x_ + 1;
         rows_ = last_y - first_y_ + 1;
-        const std::int64_t most = 1 << 26;
-        require(columns_ < most && rows_ < most && columns_ * rows_ < most, "seabed tiles",
+        const std::int64_t upper_bound = 1 << 26;
+        require(columns_ < upper_bound && rows_ < upper_bound && columns_ * rows_ < upper_bound, "seabed tiles",
                 static_cast<double>(columns_) * static_cast<double>(rows_), "below 2^26: take larger cells");
         slots_.assign(static_cast<std::size_t>(columns_ * rows_), absent);
     }
@@ -25754,7 +25754,7 @@ class ping_tracer {
     /// Power that a surface of reflectivity 1 returns from a ray: the ray's cross-section over the sine of the grazing
     /// angle, times the law.
     float power_of(std::size_t k, double range, float grazing_sine) const {
-        const float sine = (std::min)((std::max)(grazing_sine, least_grazing_sine), 1.0f);
+        const float sine = (std::min)((std::max)(grazing_sine, min_grazing_sine), 1.0f);
         return static_cast<float>(range) * ray_power_[k] * law_(sine) / sine;
     }
 

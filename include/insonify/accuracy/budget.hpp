@@ -130,7 +130,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     settings<Shadow> found{.rig = rig};
     // Snapping moves a vertex by at most half a sub-pixel along each axis.
     if (tolerated.silhouette * 0.05 < 1.0 / (1 << found.subpixel_bits))
-        found.subpixel_bits = detail::most_subpixel_bits(rig);
+        found.subpixel_bits = detail::max_subpixel_bits(rig);
     found.silhouette_error = tolerated.silhouette;
     found.shadow_edge_error = 0.5 * tolerated.shadow_edge;
     if (bottom.empty()) return found;
@@ -180,7 +180,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         }
         found.shadow.texels_per_pixel = static_cast<float>(texels);
     }
-    found.cell = (std::max)(pixel / chosen, detail::least_cell(view));
+    found.cell = (std::max)(pixel / chosen, detail::min_cell(view));
     return found;
 }
 
@@ -205,8 +205,8 @@ inline settings<> balanced(const overhead& rig) {
 /// 16384 pixels.
 inline settings<> exact(const overhead& rig) {
     const overhead_geometry view(rig);
-    return {.cell = (std::max)(0.5 * view.ground_sampling(), detail::least_cell(view)),
-            .subpixel_bits = detail::most_subpixel_bits(rig),
+    return {.cell = (std::max)(0.5 * view.ground_sampling(), detail::min_cell(view)),
+            .subpixel_bits = detail::max_subpixel_bits(rig),
             .silhouette_error = 0.02,
             .shadow_edge_error = 0.02,
             .rig = rig};

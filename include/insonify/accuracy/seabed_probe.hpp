@@ -40,11 +40,11 @@ struct probe {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// The smallest cell that `render` takes.
-inline double least_cell(const overhead_geometry& view) {
+inline double min_cell(const overhead_geometry& view) {
     return 2 * (std::max)(view.half_extent(0).x, view.half_extent(0).y) / 32768;
 }
 /// The most sub-pixel bits that pictures of a rig take.
-inline int most_subpixel_bits(const overhead& rig) {
+inline int max_subpixel_bits(const overhead& rig) {
     return (std::max)(rig.size.x, rig.size.y) > 16384 ? 15 : 16;
 }
 

@@ -100,7 +100,7 @@ struct noise_floor {
 namespace detail {
 
 /// Backscatter at smaller grazing angles is that at this one, by its sine.
-inline constexpr float least_grazing_sine = 1e-3f;
+inline constexpr float min_grazing_sine = 1e-3f;
 
 }  // namespace detail
 
@@ -252,7 +252,7 @@ class sonar_equation {
             const double cosine = numeric::square_root(1 - sine * sine);
             const double length = e.counts_time ? e.bin / cosine : e.bin;
             // Rays take the law from the same angle up.
-            const double clamped = (std::max)(sine, static_cast<double>(detail::least_grazing_sine));
+            const double clamped = (std::max)(sine, static_cast<double>(detail::min_grazing_sine));
             return static_cast<double>(law(static_cast<float>(clamped))) * (sine / clamped) * length * e.spacing *
                    over_direction(cosine, sine) * over_range(e.range, e.spacing);
         };

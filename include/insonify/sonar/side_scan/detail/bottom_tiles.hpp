@@ -130,8 +130,8 @@ class bottom_tiles {
         }
         columns_ = last_x - first_x_ + 1;
         rows_ = last_y - first_y_ + 1;
-        const std::int64_t most = 1 << 26;
-        require(columns_ < most && rows_ < most && columns_ * rows_ < most, "seabed tiles",
+        const std::int64_t upper_bound = 1 << 26;
+        require(columns_ < upper_bound && rows_ < upper_bound && columns_ * rows_ < upper_bound, "seabed tiles",
                 static_cast<double>(columns_) * static_cast<double>(rows_), "below 2^26: take larger cells");
         slots_.assign(static_cast<std::size_t>(columns_ * rows_), absent);
     }

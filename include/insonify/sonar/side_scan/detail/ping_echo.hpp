@@ -234,7 +234,7 @@ class ping_tracer {
     /// Power that a surface of reflectivity 1 returns from a ray: the ray's cross-section over the sine of the grazing
     /// angle, times the law.
     float power_of(std::size_t k, double range, float grazing_sine) const {
-        const float sine = (std::min)((std::max)(grazing_sine, least_grazing_sine), 1.0f);
+        const float sine = (std::min)((std::max)(grazing_sine, min_grazing_sine), 1.0f);
         return static_cast<float>(range) * ray_power_[k] * law_(sine) / sine;
     }
 
