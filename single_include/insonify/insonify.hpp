@@ -24658,7 +24658,7 @@ class bottom_tiles {
         const auto scale = static_cast<float>(0.5 * scale_);
         const auto slope = [&](float before, float at, float after) {
             const float central = scale * (after - before);
-            return numeric::is_finite(central + at) ? central : scale * seabed::detail::rise(before, at, after);
+            return numeric::is_finite(central) ? central : scale * seabed::detail::rise(before, at, after);
         };
         for (std::size_t tile = 0; tile < run.count; ++tile) {
             bottom_vertex* out = &vertices_[(run.slot + tile) * tile_size];
