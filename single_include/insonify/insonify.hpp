@@ -346,11 +346,14 @@ class block_pool {
     }
     INSONIFY_TAGGED void* fresh_block(std::size_t size) {
         const std::align_val_t aligned{alignment};
-        if (void* const memory = ::operator new(size, aligned, std::nothrow)) return memory;
-        {
+#if defined(__cpp_exceptions)
+        try {
+            return ::operator new(size, aligned);
+        } catch (const std::bad_alloc&) {
             const guard lock(busy_);  // what is kept may be what is lacking
             while (count_ > 0) free_oldest();
         }
+#endif
         return ::operator new(size, aligned);
     }
     INSONIFY_TAGGED static void free_block(void* memory) noexcept {
@@ -364,7 +367,9 @@ class block_pool {
         kept_ -= taken.size;
         return taken.memory;
     }
-    INSONIFY_TAGGED void free_oldest() noexcept { free_block(take(0)); }
+    INSONIFY_TAGGED void free_oldest() noexcept {
+        free_block(take(0));
+    }
 
     static constexpr int max_blocks = 64;
 
