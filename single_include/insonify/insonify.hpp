@@ -344,17 +344,20 @@ class block_pool {
             if (blocks_[i].size == size) return take(i);
         return nullptr;
     }
+    INSONIFY_TAGGED static void* new_block(std::size_t size) {
+        return ::operator new (size, std::align_val_t{alignment});
+    }
+    /// A new block. If memory is lacking, frees what is kept and tries once more.
     INSONIFY_TAGGED void* fresh_block(std::size_t size) {
-        const std::align_val_t aligned{alignment};
 #if defined(__cpp_exceptions)
         try {
-            return ::operator new(size, aligned);
+            return new_block(size);
         } catch (const std::bad_alloc&) {
-            const guard lock(busy_);  // what is kept may be what is lacking
+            const guard lock(busy_);
             while (count_ > 0) free_oldest();
         }
 #endif
-        return ::operator new(size, aligned);
+        return new_block(size);
     }
     INSONIFY_TAGGED static void free_block(void* memory) noexcept {
         ::operator delete (memory, std::align_val_t{alignment});
@@ -596,10 +599,7 @@ namespace detail::inline INSONIFY_FLAGS {
 /// The scratch memory of an executor that is a context; null for others.
 template <class E>
 shared_pool memory_of(const E& ex) {
-    if constexpr (requires {
-                      { ex.memory() } -> std::convertible_to<shared_pool>;
-                  })
-        return ex.memory();
+    if constexpr (requires { shared_pool(ex.memory()); }) return ex.memory();
     return {};
 }
 
@@ -1373,7 +1373,7 @@ void require_fraction(std::string_view argument, Number value) {
     require_range(argument, value, 0, 1, "0 to 1");
 }
 
-/// Refuses angles that are so many turns that sin_cos has no precision left for what remains of them.
+/// Refuses angles of so many turns that they can only be a mistake; sin_cos takes |x| < 2^50.
 template <std::floating_point Number>
 void require_angle(std::string_view argument, Number value) {
     require_range(argument, value, Number(-1e6), Number(1e6), "finite radians, within 10^6 of 0");
@@ -3969,8 +3969,8 @@ struct gamma_speckle {
 };
 
 /// The K-distribution: speckle whose mean intensity is itself gamma-distributed from pixel to pixel. For one look,
-/// variance / mean^2 of the intensity is 1 + 2 / shape. Illustrative shapes: rock 0.5 to 2,
-/// gravel 2 to 4, sand 8 to 20.
+/// variance / mean^2 of the intensity is 1 + 2 / shape. Illustrative shapes: rock 0.5 to 2, gravel 2 to 4, sand 8 to
+/// 20.
 struct k_speckle {
     parameter shape = 4;  ///< of the mean, 0.01 to 1e6
     float looks = 1;      ///< 0.01 to 1e6
@@ -5864,6 +5864,13 @@ inline double nearest_face(int segments, int rings) {
     const double along = numeric::sin_cos_turns(0.25 / rings).cosine;     // of half a ring
     if (rings % 2 != 0) return across * along;  // the equator runs through the middle of a ring
     return across * along / numeric::square_root(along * along + across * across * (1 - along * along));
+}
+
+/// Fewest segments, from 6 to 8192, of a circle whose chords are within `deviation` of it.
+inline int ring_segments_for(float radius, float deviation) {
+    const int segments = segments_for(radius, deviation);
+    require(segments <= 8192, "deviation", deviation, "reachable with 8192 segments");
+    return (std::max)(segments, 6);
 }
 
 /// Fewest segments with which the faces of a ball stay within `deviation` of it.
@@ -8165,6 +8172,12 @@ struct with_kind {
 inline void require_finite(const height_range& range) {
     require(range.empty() || numeric::is_finite(range.highest - range.lowest), "range() of the seabed", range.highest,
             "finite heights that it never leaves (a model without `range()` states none)");
+}
+
+/// The range of floats that are interpolated within a range: rounding may exceed it.
+inline height_range interpolated(const height_range& r) {
+    const double error = 0x1p-21 * (std::max)(numeric::abs(r.lowest), numeric::abs(r.highest));
+    return r.empty() ? r : height_range{r.lowest - error, r.highest + error};
 }
 
 template <class S>
@@ -11252,20 +11265,20 @@ class overhead_geometry {
 
     const overhead& rig() const { return rig_; }
     const shadow::light_frame& light() const { return light_; }
-    /// The light, for shadow policies.
+    bool has_near_light() const { return numeric::is_finite(rig_.light_distance); }
+    /// Position of a near light.
+    glm::dvec3 light_position() const { return static_cast<double>(rig_.light_distance) * light_.to_light(); }
+    /// The light in the rig's frame, for shadow policies.
     shadow::any_light light_source() const {
         if (has_near_light()) return shadow::point_light{light_position()};
         return shadow::directional_light{numeric::widened(rig_.light_azimuth), numeric::widened(rig_.grazing)};
     }
-    /// Direction from the datum below the camera to a point of the light, in units of the distance to its centre;
-    /// `beside` is the offset from the centre, across and up, in the same unit.
-    glm::dvec3 toward_light(const glm::dvec2& beside) const {
-        return shadow::toward_disc(light_.to_light(), light_.travel(), beside);
-    }
-    bool has_near_light() const { return numeric::is_finite(rig_.light_distance); }
-    /// Position of a point of a near light.
-    glm::dvec3 light_position(const glm::dvec2& beside = {0, 0}) const {
-        return static_cast<double>(rig_.light_distance) * toward_light(beside);
+    /// The light along the world's axes, relative to the rig's position.
+    shadow::any_light world_light() const {
+        if (has_near_light())
+            return shadow::point_light{numeric::product(glm::transpose(rig_from_world_.linear), light_position())};
+        return shadow::directional_light{numeric::widened(rig_.light_azimuth) + numeric::widened(rig_.yaw),
+                                         numeric::widened(rig_.grazing)};
     }
 
     /// From an object's frame to the rig's. Subtracts the rig's position before it rotates, so that large coordinates
@@ -16658,29 +16671,32 @@ namespace detail::inline INSONIFY_FLAGS {
 /// cot(elevation) metres or, if the light is near, within that fraction of the distance to it; beyond, it meets
 /// nothing. For an extended light, the corners of a square around it are tried: the distance is a quotient of linear
 /// functions of the position on the light, so its maximum is in a corner.
-/// @param range     heights of the lowest point and of the highest ground
-/// @param radius    of the light over its distance
-/// @param is_near   whether the light is near
-/// @param light_at  light_at(offset): the position of a point of a near light, or the direction to one of a distant
-///                  light, by its offset from the centre, across and up, over the light's distance
-template <class Light>
-ground_rect casting_ground(const ground_rect& points, const seabed::height_range& range, double radius, double longest,
-                           bool is_near, const Light& light_at) {
+/// @param range   heights of the lowest point and of the highest ground
+/// @param light   in the frame of the rectangle; a near one faces the origin
+/// @param radius  of the light over its distance
+inline ground_rect casting_ground(const ground_rect& points, const seabed::height_range& range,
+                                  const shadow::any_light& light, double radius, double longest) {
     ground_rect all = points;
     const double relief = range.highest - range.lowest;
     if (!(relief > 0)) return all;
+    const auto* const from_nearby = std::get_if<shadow::point_light>(&light);
+    const auto light_at = [&](const glm::dvec2& beside) {  // a position if it is near, else a direction
+        if (from_nearby != nullptr) return shadow::point_of_disc(from_nearby->position, beside);
+        const shadow::light_frame frame(std::get<shadow::directional_light>(light));
+        return shadow::toward_disc(frame.to_light(), frame.travel(), beside);
+    };
     const auto clamped = [&](double way) { return (std::max)(-longest, (std::min)(longest, way)); };
     for (const double across : {-radius, radius})
         for (const double up : {-radius, radius}) {
-            const glm::dvec3 light = light_at(glm::dvec2(across, up));
+            const glm::dvec3 to = light_at({across, up});
             for (int axis = 0; axis < 2; ++axis) {
                 for (const double from : {points.lower[axis], points.upper[axis]}) {
                     double way;
-                    if (is_near) {
-                        const double share = light.z > range.highest ? relief / (light.z - range.lowest) : 1;
-                        way = share * (light[axis] - from);
+                    if (from_nearby != nullptr) {
+                        const double share = to.z > range.highest ? relief / (to.z - range.lowest) : 1;
+                        way = share * (to[axis] - from);
                     } else {
-                        way = light.z > 0 ? relief / light.z * light[axis] : longest * (light[axis] < 0 ? -1 : 1);
+                        way = to.z > 0 ? relief / to.z * to[axis] : longest * (to[axis] < 0 ? -1 : 1);
                     }
                     const double end = from + clamped(way);
                     all.lower[axis] = (std::min)(all.lower[axis], end);
@@ -17992,6 +18008,15 @@ inline ground_rect shown_ground(const overhead_geometry& view, const seabed::hei
     return shown;
 }
 
+/// The longer side of a picture's footprint, metres.
+inline double longer_side(const overhead_geometry& view) {
+    return 2 * (std::max)(view.half_extent(0).x, view.half_extent(0).y);
+}
+/// Lower bound of the spacing of the seabed's vertices, metres.
+inline double min_cell(const overhead_geometry& view) {
+    return longer_side(view) / 32768;
+}
+
 /// Sampled heights and their mesh; empty until `sample` is called.
 class sampled_bottom {
   public:
@@ -18201,20 +18226,20 @@ class shadow_pass {
     void test_together(const Occlusion& occlusion, const dynamic_array<std::size_t>& undecided, E& ex) {
         // Tiles share a list, and more of them in large pictures, so that batches stay within their number: a list has
         // up to two.
-        const std::size_t tiles = (std::max)(run_, tiles_.count() / (shadow::max_batches / 2) + 1);
+        const std::size_t tiles_per_list = (std::max)(run_, tiles_.count() / (shadow::max_batches / 2) + 1);
         dynamic_array<std::size_t> starts{0};  // of the points of each list
         for (std::size_t i = 0; i < tiles_.count(); ++i) {
-            if (i % tiles == 0) starts.push_back(starts.back());
+            if (i % tiles_per_list == 0) starts.push_back(starts.back());
             starts.back() += undecided[i];
         }
         point_batch all(starts.back(), memory_of(ex));
         light_arrays light(starts.back(), memory_of(ex));
         dynamic_array<point_list> lists;
         for (std::size_t i = 0; i + 1 < starts.size(); ++i) lists.push_back({all, starts[i], starts[i + 1]});
-        bulk_ranges(ex, tiles_.count(), tiles, [&](std::size_t first, std::size_t last) {
+        bulk_ranges(ex, tiles_.count(), tiles_per_list, [&](std::size_t first, std::size_t last) {
             shown_by_surface shown(surfaces_.size());
             for (std::size_t i = first; i < last; ++i)
-                if (undecided[i] > 0) find_points(i, shown, lists[first / tiles]);
+                if (undecided[i] > 0) find_points(i, shown, lists[first / tiles_per_list]);
         });
         const auto part = [&](std::size_t i) { return light.part(starts[i], lists[i].size()); };
         dynamic_array<shadow::points> at;
@@ -18350,24 +18375,16 @@ class overhead_painter {
     void sample_seabed(E& ex) {
         const overhead& rig = view_.rig();
         seabed::detail::require_position("overhead.position", rig.position);
-        const double longer_side = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y);
         const int longer = (std::max)(rig.size.x, rig.size.y);
-        const double spacing = options_.cell > 0 ? options_.cell : longer_side / ((longer + 1) / 2);
-        require(longer_side <= 32768 * spacing, "cell", spacing, "at least a 32768th of the picture");
+        const double spacing = options_.cell > 0 ? options_.cell : longer_side(view_) / ((longer + 1) / 2);
+        require(spacing >= min_cell(view_), "cell", spacing, "at least a 32768th of the picture");
 
         seabed::height_range range = merge(scene_.seabed.prepare().range(), {0, 0});
         seabed::detail::require_finite(range);
-        const double longest = static_cast<double>(options_.reach) * longer_side;
         ground_rect ground = shown_ground(view_, range);
-        if constexpr (casts) {
-            const bool is_near = view_.has_near_light();
-            const glm::dmat3 along_world_axes = glm::transpose(view_.rig_from({}).linear);
-            ground = casting_ground(
-                ground, range, shadow::radius_of(options_.shadow), longest, is_near, [&](const glm::dvec2& beside) {
-                    return numeric::product(along_world_axes,
-                                            is_near ? view_.light_position(beside) : view_.toward_light(beside));
-                });
-        }
+        if constexpr (casts)
+            ground = casting_ground(ground, range, view_.world_light(), shadow::radius_of(options_.shadow),
+                                    static_cast<double>(options_.reach) * longer_side(view_));
         bottom_.sample(scene_.seabed, rig.position, ground, spacing, ex);
         const image<float>& heights = bottom_.field().heights;
         out_.stats.seabed_samples = heights.size();
@@ -18699,11 +18716,7 @@ struct probe {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The smallest cell that `render` takes.
-inline double min_cell(const overhead_geometry& view) {
-    return 2 * (std::max)(view.half_extent(0).x, view.half_extent(0).y) / 32768;
-}
-/// The most sub-pixel bits that pictures of a rig take.
+/// The most sub-pixel bits that pictures of a rig take, of which a side has at most 2^30 sub-pixels.
 inline int max_subpixel_bits(const overhead& rig) {
     return (std::max)(rig.size.x, rig.size.y) > 16384 ? 15 : 16;
 }
@@ -18788,8 +18801,8 @@ class seabed_probe {
     image<std::uint8_t> march(const overhead& chip, E& ex) const {
         const overhead_geometry view(chip);
         const double half = view.half_extent(0).x;
-        const glm::dmat3& turn = view.rig_from({}).linear;
-        const auto world = [&](const glm::dvec3& v) { return numeric::product(glm::transpose(turn), v); };
+        const glm::dmat3 turn = glm::transpose(view.rig_from({}).linear);
+        const auto world = [&](const glm::dvec3& v) { return numeric::product(turn, v); };
         const bool is_near = view.has_near_light();
         const glm::dvec3 light =
             is_near ? world(view.light_position()) + glm::dvec3(chip.position, 0) : world(view.light().to_light());
@@ -18809,24 +18822,24 @@ class seabed_probe {
             for (int i = 0; i < chip.size.x; ++i) {
                 const glm::dvec3 in_rig((2.0 * i + 1 - chip.size.x) / chip.size.x * half,
                                         (chip.size.y - 2.0 * j - 1) / chip.size.x * half, 0);
-                const glm::dvec2 datum(numeric::product(glm::transpose(turn), in_rig));
+                const glm::dvec2 datum(world(in_rig));
                 glm::dvec2 at = chip.position + datum;
                 // Perspective moves raised ground away from the middle; on narrow chips a few iterations converge.
                 for (int k = 0; k < 6; ++k) {
                     const double height = field.facet_at(at.x, at.y).height;
                     at = chip.position + datum * (1 - height / static_cast<double>(chip.altitude));
                 }
-                const glm::dvec3 toward = is_near ? light - glm::dvec3(at, field.facet_at(at.x, at.y).height) : light;
-                dark(i, j) = is_dark(field, at, toward, is_near, top) ? 1 : 0;
+                dark(i, j) = is_dark(field, at, light, is_near, top) ? 1 : 0;
             }
         });
         return dark;
     }
 
-    /// @param toward  the vector to a near light, or the direction of a distant one
-    static bool is_dark(const seabed::heightfield& field, const glm::dvec2& at, const glm::dvec3& toward, bool is_near,
+    /// @param light  the position of a near light, or the direction to a distant one
+    static bool is_dark(const seabed::heightfield& field, const glm::dvec2& at, const glm::dvec3& light, bool is_near,
                         double top) {
         const auto facet = field.facet_at(at.x, at.y);
+        const glm::dvec3 toward = is_near ? light - glm::dvec3(at, facet.height) : light;
         const double level = numeric::square_root(toward.x * toward.x + toward.y * toward.y);
         if (level <= 1e-7 * numeric::abs(toward.z)) return false;  // the zenith
         const glm::dvec2 travel(-toward.x / level, -toward.y / level);
@@ -19295,7 +19308,8 @@ inline mesh with_creases(const mesh& m, float angle = 0.7f) {
         if (length > 0 && numeric::is_finite(length)) facets[t] = area / length;
         for (int i = 0; i < 3; ++i) {
             const double turn = numeric::atan2(length, numeric::dot(p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]));
-            corners.push_back({first[m.triangles[t][i]], t, i, turn * facets[t]});
+            const bool has_area = facets[t] != glm::dvec3(0);  // otherwise the angle may be NaN
+            corners.push_back({first[m.triangles[t][i]], t, i, has_area ? turn * facets[t] : facets[t]});
         }
     }
     std::sort(corners.begin(), corners.end(), [](const corner& a, const corner& b) {
@@ -19310,15 +19324,13 @@ inline mesh with_creases(const mesh& m, float angle = 0.7f) {
         for (end = begin; end < corners.size() && corners[end].position == corners[begin].position;) ++end;
         const auto fan = out.positions.size();
         for (std::size_t i = begin; i < end; ++i) {
-            glm::dvec3 sum(0);
             const glm::dvec3& facet = facets[corners[i].triangle];
-            for (std::size_t j = begin; j < end && facet != glm::dvec3(0); ++j) {
-                const glm::dvec3& other = facets[corners[j].triangle];
-                if (i == j || (other != glm::dvec3(0) && numeric::dot(facet, other) > smoothest))
-                    sum += corners[j].weighted;
-            }
+            glm::dvec3 sum(0);
+            for (std::size_t j = begin; j < end; ++j)
+                if (i == j || numeric::dot(facet, facets[corners[j].triangle]) > smoothest) sum += corners[j].weighted;
             const double length = numeric::square_root(numeric::dot(sum, sum));
-            const glm::vec3 normal = length > 0 ? glm::vec3(sum / length) : glm::vec3(0, 0, 1);
+            const glm::vec3 normal =
+                facet != glm::dvec3(0) && length > 0 ? glm::vec3(sum / length) : glm::vec3(0, 0, 1);
             std::size_t vertex = fan;
             while (vertex < out.normals.size() && out.normals[vertex] != normal) ++vertex;
             if (vertex == out.normals.size()) {
@@ -19771,13 +19783,6 @@ inline void require_thickness(const char* name, float metres, float object_size)
 }
 inline void require_segments(const char* name, int value, int low, int high) {
     require_range(name, value, low, high, to_text(low) + " to " + to_text(high));
-}
-
-/// Fewest segments, from 6 to 8192, of a circle whose chords are within `deviation` of it.
-inline int object_segments_for(float radius, float deviation) {
-    const int segments = segments_for(radius, deviation);
-    require(segments <= 8192, "deviation", deviation, "reachable with 8192 segments");
-    return (std::max)(segments, 6);
 }
 
 /// Appends the surface through sections with equal numbers of corners, closed at both ends. The two ends are cut into
@@ -21565,7 +21570,7 @@ inline mesh to_mesh(const open_pipe& p) {
 /// Fewest segments with which the outside is nowhere farther than `deviation` from its circle.
 /// @throws invalid_input as `segments_for(radius, chord_error)`, and for deviations that need more than 8192 segments
 inline int segments_for(const open_pipe& p, float deviation) {
-    return detail::object_segments_for(0.5f * p.diameter + p.flange, deviation);
+    return detail::ring_segments_for(0.5f * p.diameter + p.flange, deviation);
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -21664,7 +21669,7 @@ inline mesh to_mesh(const truncated_cone& c) {
 /// Fewest segments with which the base is nowhere farther than `deviation` from its circle.
 /// @throws invalid_input as `segments_for(radius, chord_error)`, and for deviations that need more than 8192 segments
 inline int segments_for(const truncated_cone& c, float deviation) {
-    return detail::object_segments_for(0.5f * c.diameter, deviation);
+    return detail::ring_segments_for(0.5f * c.diameter, deviation);
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -21748,7 +21753,7 @@ inline mesh to_mesh(const tyre& t) {
 /// Fewest segments with which the tread is nowhere farther than `deviation` from its circle.
 /// @throws invalid_input as `segments_for(radius, chord_error)`, and for deviations that need more than 8192 segments
 inline int segments_for(const tyre& t, float deviation) {
-    return detail::object_segments_for(0.5f * t.diameter, deviation);
+    return detail::ring_segments_for(0.5f * t.diameter, deviation);
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -22322,7 +22327,7 @@ struct grid_soundings {
 inline grid_soundings read_soundings(survey_reader& in, double spacing, float scale) {
     grid_soundings found;
     for (std::string_view first; !(first = in.word()).empty(); in.skip_line()) {
-        const std::size_t digit = first.find_first_not_of("+-.");
+        const std::size_t digit = first.find_first_not_of("+-.");  // after a sign and a point at most
         const bool is_number = digit <= 2 && first[digit] >= '0' && first[digit] <= '9';
         if (!is_number) {
             // Its rows of heights would be taken for positions.
@@ -22400,9 +22405,8 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors
 /// @throws io_error for a text without soundings, an Esri grid, a line of fewer than three numbers or with decimal
-///         commas, soundings that span
-///         less than a spacing or crowd at a few vertices, as those in degrees do, or soundings so far apart that there
-///         are more than 1024 vertices for each, or more than 2^26
+///         commas, soundings that span less than a spacing or crowd at a few vertices, as those in degrees do, or
+///         soundings so far apart that there are more than 1024 vertices for each, or more than 2^26
 inline heightfield parse_xyz(std::string_view text, double spacing, float scale = 1, std::string_view name = "xyz") {
     detail::require_positive_metres("spacing", spacing);
     detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");
@@ -22779,9 +22783,8 @@ class detailed_sampler {
     /// Catmull-Rom's negative weights add up to 1/8 at most: interpolated rows overshoot the range by 1/8 at either
     /// end, and columns overshoot the resulting 5/4 of the range by 1/8 again.
     height_range range() const {
-        const height_range field = field_->prepare().range();
-        const double over = 0.2813 * (field.highest - field.lowest) + surface_.upper_bound() +
-                            0x1p-21 * (std::max)(numeric::abs(field.lowest), numeric::abs(field.highest));  // rounding
+        const height_range field = detail::interpolated(field_->prepare().range());
+        const double over = 0.2813 * (field.highest - field.lowest) + surface_.upper_bound();
         return field.empty() ? field : height_range{field.lowest - over, field.highest + over};
     }
 
@@ -23099,11 +23102,6 @@ inline height_range added(const height_range& ground, double lowest, double high
 }
 inline height_range including(const height_range& ground, double to) {
     return merge(ground, {to, to});
-}
-/// The range of floats interpolated between heights of a range: rounding may exceed it.
-inline height_range interpolated(const height_range& r) {
-    const double error = 0x1p-21 * (std::max)(numeric::abs(r.lowest), numeric::abs(r.highest));
-    return r.empty() ? r : height_range{r.lowest - error, r.highest + error};
 }
 inline height_range range_after(const raise& e, const height_range& ground) {
     return added(ground, static_cast<double>(e.height), static_cast<double>(e.height));
@@ -23804,9 +23802,8 @@ class penumbra_occlusion {
 /// the one that blocks the light's centre. The disc of a point light faces the origin of the frame in which the light
 /// is described.
 struct penumbra {
-    float diameter =
-        static_cast<float>(numeric::to_radians(0.5));  ///< of the light seen from the ground, 0 to 1 radian
-    int samples = 16;                                  ///< points on the disc, the first at its centre; 1 to 1024
+    float diameter = static_cast<float>(numeric::to_radians(0.5));  ///< seen from the ground, 0 to 1 radian
+    int samples = 16;  ///< points on the disc, the first at its centre; 1 to 1024
 
     /// Radius of the light over its distance.
     /// @throws invalid_input for a diameter out of range
@@ -24662,7 +24659,7 @@ class bottom_tiles {
         }
         const auto scale = static_cast<float>(0.5 * scale_);
         const auto slope = [&](float before, float at, float after) {
-            const float central = scale * (after - before);
+            const float central = scale * (after - before);  // finite, unless beside a gap
             return numeric::is_finite(central) ? central : scale * seabed::detail::rise(before, at, after);
         };
         for (std::size_t tile = 0; tile < run.count; ++tile) {
@@ -26752,14 +26749,9 @@ inline namespace INSONIFY_FLAGS {
 
 /// The light of a rig, in the world.
 inline shadow::any_light light_of(const overhead& rig) {
-    const overhead_geometry view(rig);
-    shadow::any_light light = view.light_source();
-    if (auto* parallel = std::get_if<shadow::directional_light>(&light)) {
-        parallel->azimuth += numeric::widened(rig.yaw);
-    } else {
-        glm::dvec3& position = std::get<shadow::point_light>(light).position;
-        position = numeric::product(glm::transpose(view.rig_from({}).linear), position) + glm::dvec3(rig.position, 0);
-    }
+    shadow::any_light light = overhead_geometry(rig).world_light();
+    if (auto* from_nearby = std::get_if<shadow::point_light>(&light))
+        from_nearby->position += glm::dvec3(rig.position, 0);
     return light;
 }
 
@@ -26869,29 +26861,18 @@ class scene_occlusion {
         if (s.seabed.empty()) return all;
         const seabed::height_range range = s.seabed.prepare().range();
         seabed::detail::require_finite(range);
-        const detail::ground_rect ground = casting_ground(from_centre(light), within, range.highest, radius);
+        // Around the centre, as the light: the ground below the box, and towards the light.
         const glm::dvec2 centre(centre_);
-        seabed::grid grid = seabed::grid_over(ground.lower + centre, ground.upper + centre, cell_of(within));
+        const double cell = cell_of(within);
+        const detail::ground_rect below{glm::dvec2(within.box.lower) - centre - cell,
+                                        glm::dvec2(within.box.upper) - centre + cell};
+        const detail::ground_rect ground = detail::casting_ground(
+            below, {within.box.lower.z, range.highest}, from_centre(light), radius, within.reach * longer_side(within));
+        seabed::grid grid = seabed::grid_over(ground.lower + centre, ground.upper + centre, cell);
         grid.band_limited = true;
         const seabed::heightfield field = seabed::sample(s.seabed, grid, ex);
         all.push_back({seabed::tessellate(field, ex), around_centre({glm::dmat3(1), glm::dvec3(field.origin, 0)})});
         return all;
-    }
-
-    /// The ground below the box, and towards the light as far as the seabed may reach into a ray, around the centre.
-    detail::ground_rect casting_ground(const shadow::any_light& light, const occlusion_bounds& within, double highest,
-                                       double radius) const {
-        const glm::dvec2 lower = glm::dvec2(within.box.lower) - glm::dvec2(centre_) - cell_of(within),
-                         upper = glm::dvec2(within.box.upper) - glm::dvec2(centre_) + cell_of(within);
-        const auto* const from_nearby = std::get_if<shadow::point_light>(&light);
-        return detail::casting_ground({lower, upper}, {within.box.lower.z, highest}, radius,
-                                      within.reach * longer_side(within), from_nearby != nullptr,
-                                      [&](const glm::dvec2& beside) {
-                                          if (from_nearby != nullptr)
-                                              return shadow::point_of_disc(from_nearby->position, beside);
-                                          const shadow::light_frame frame(std::get<shadow::directional_light>(light));
-                                          return shadow::toward_disc(frame.to_light(), frame.travel(), beside);
-                                      });
     }
 
     glm::dvec3 centre_;

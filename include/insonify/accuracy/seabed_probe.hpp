@@ -39,11 +39,7 @@ struct probe {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The smallest cell that `render` takes.
-inline double min_cell(const overhead_geometry& view) {
-    return 2 * (std::max)(view.half_extent(0).x, view.half_extent(0).y) / 32768;
-}
-/// The most sub-pixel bits that pictures of a rig take.
+/// The most sub-pixel bits that pictures of a rig take, of which a side has at most 2^30 sub-pixels.
 inline int max_subpixel_bits(const overhead& rig) {
     return (std::max)(rig.size.x, rig.size.y) > 16384 ? 15 : 16;
 }
@@ -128,8 +124,8 @@ class seabed_probe {
     image<std::uint8_t> march(const overhead& chip, E& ex) const {
         const overhead_geometry view(chip);
         const double half = view.half_extent(0).x;
-        const glm::dmat3& turn = view.rig_from({}).linear;
-        const auto world = [&](const glm::dvec3& v) { return numeric::product(glm::transpose(turn), v); };
+        const glm::dmat3 turn = glm::transpose(view.rig_from({}).linear);
+        const auto world = [&](const glm::dvec3& v) { return numeric::product(turn, v); };
         const bool is_near = view.has_near_light();
         const glm::dvec3 light =
             is_near ? world(view.light_position()) + glm::dvec3(chip.position, 0) : world(view.light().to_light());
@@ -149,24 +145,24 @@ class seabed_probe {
             for (int i = 0; i < chip.size.x; ++i) {
                 const glm::dvec3 in_rig((2.0 * i + 1 - chip.size.x) / chip.size.x * half,
                                         (chip.size.y - 2.0 * j - 1) / chip.size.x * half, 0);
-                const glm::dvec2 datum(numeric::product(glm::transpose(turn), in_rig));
+                const glm::dvec2 datum(world(in_rig));
                 glm::dvec2 at = chip.position + datum;
                 // Perspective moves raised ground away from the middle; on narrow chips a few iterations converge.
                 for (int k = 0; k < 6; ++k) {
                     const double height = field.facet_at(at.x, at.y).height;
                     at = chip.position + datum * (1 - height / static_cast<double>(chip.altitude));
                 }
-                const glm::dvec3 toward = is_near ? light - glm::dvec3(at, field.facet_at(at.x, at.y).height) : light;
-                dark(i, j) = is_dark(field, at, toward, is_near, top) ? 1 : 0;
+                dark(i, j) = is_dark(field, at, light, is_near, top) ? 1 : 0;
             }
         });
         return dark;
     }
 
-    /// @param toward  the vector to a near light, or the direction of a distant one
-    static bool is_dark(const seabed::heightfield& field, const glm::dvec2& at, const glm::dvec3& toward, bool is_near,
+    /// @param light  the position of a near light, or the direction to a distant one
+    static bool is_dark(const seabed::heightfield& field, const glm::dvec2& at, const glm::dvec3& light, bool is_near,
                         double top) {
         const auto facet = field.facet_at(at.x, at.y);
+        const glm::dvec3 toward = is_near ? light - glm::dvec3(at, facet.height) : light;
         const double level = numeric::square_root(toward.x * toward.x + toward.y * toward.y);
         if (level <= 1e-7 * numeric::abs(toward.z)) return false;  // the zenith
         const glm::dvec2 travel(-toward.x / level, -toward.y / level);

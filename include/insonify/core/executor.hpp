@@ -37,10 +37,7 @@ namespace detail::inline INSONIFY_FLAGS {
 /// The scratch memory of an executor that is a context; null for others.
 template <class E>
 shared_pool memory_of(const E& ex) {
-    if constexpr (requires {
-                      { ex.memory() } -> std::convertible_to<shared_pool>;
-                  })
-        return ex.memory();
+    if constexpr (requires { shared_pool(ex.memory()); }) return ex.memory();
     return {};
 }
 

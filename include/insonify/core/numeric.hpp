@@ -237,7 +237,7 @@ void require_fraction(std::string_view argument, Number value) {
     require_range(argument, value, 0, 1, "0 to 1");
 }
 
-/// Refuses angles that are so many turns that sin_cos has no precision left for what remains of them.
+/// Refuses angles of so many turns that they can only be a mistake; sin_cos takes |x| < 2^50.
 template <std::floating_point Number>
 void require_angle(std::string_view argument, Number value) {
     require_range(argument, value, Number(-1e6), Number(1e6), "finite radians, within 10^6 of 0");

@@ -63,8 +63,8 @@ struct gamma_speckle {
 };
 
 /// The K-distribution: speckle whose mean intensity is itself gamma-distributed from pixel to pixel. For one look,
-/// variance / mean^2 of the intensity is 1 + 2 / shape. Illustrative shapes: rock 0.5 to 2,
-/// gravel 2 to 4, sand 8 to 20.
+/// variance / mean^2 of the intensity is 1 + 2 / shape. Illustrative shapes: rock 0.5 to 2, gravel 2 to 4, sand 8 to
+/// 20.
 struct k_speckle {
     parameter shape = 4;  ///< of the mean, 0.01 to 1e6
     float looks = 1;      ///< 0.01 to 1e6

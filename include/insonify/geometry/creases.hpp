@@ -49,7 +49,8 @@ inline mesh with_creases(const mesh& m, float angle = 0.7f) {
         if (length > 0 && numeric::is_finite(length)) facets[t] = area / length;
         for (int i = 0; i < 3; ++i) {
             const double turn = numeric::atan2(length, numeric::dot(p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]));
-            corners.push_back({first[m.triangles[t][i]], t, i, turn * facets[t]});
+            const bool has_area = facets[t] != glm::dvec3(0);  // otherwise the angle may be NaN
+            corners.push_back({first[m.triangles[t][i]], t, i, has_area ? turn * facets[t] : facets[t]});
         }
     }
     std::sort(corners.begin(), corners.end(), [](const corner& a, const corner& b) {
@@ -64,15 +65,13 @@ inline mesh with_creases(const mesh& m, float angle = 0.7f) {
         for (end = begin; end < corners.size() && corners[end].position == corners[begin].position;) ++end;
         const auto fan = out.positions.size();
         for (std::size_t i = begin; i < end; ++i) {
-            glm::dvec3 sum(0);
             const glm::dvec3& facet = facets[corners[i].triangle];
-            for (std::size_t j = begin; j < end && facet != glm::dvec3(0); ++j) {
-                const glm::dvec3& other = facets[corners[j].triangle];
-                if (i == j || (other != glm::dvec3(0) && numeric::dot(facet, other) > smoothest))
-                    sum += corners[j].weighted;
-            }
+            glm::dvec3 sum(0);
+            for (std::size_t j = begin; j < end; ++j)
+                if (i == j || numeric::dot(facet, facets[corners[j].triangle]) > smoothest) sum += corners[j].weighted;
             const double length = numeric::square_root(numeric::dot(sum, sum));
-            const glm::vec3 normal = length > 0 ? glm::vec3(sum / length) : glm::vec3(0, 0, 1);
+            const glm::vec3 normal =
+                facet != glm::dvec3(0) && length > 0 ? glm::vec3(sum / length) : glm::vec3(0, 0, 1);
             std::size_t vertex = fan;
             while (vertex < out.normals.size() && out.normals[vertex] != normal) ++vertex;
             if (vertex == out.normals.size()) {

@@ -78,6 +78,13 @@ inline double nearest_face(int segments, int rings) {
     return across * along / numeric::square_root(along * along + across * across * (1 - along * along));
 }
 
+/// Fewest segments, from 6 to 8192, of a circle whose chords are within `deviation` of it.
+inline int ring_segments_for(float radius, float deviation) {
+    const int segments = segments_for(radius, deviation);
+    require(segments <= 8192, "deviation", deviation, "reachable with 8192 segments");
+    return (std::max)(segments, 6);
+}
+
 /// Fewest segments with which the faces of a ball stay within `deviation` of it.
 /// @param rings_of  from segments to the rings from pole to pole
 template <class RingsOf>

@@ -105,7 +105,7 @@ struct grid_soundings {
 inline grid_soundings read_soundings(survey_reader& in, double spacing, float scale) {
     grid_soundings found;
     for (std::string_view first; !(first = in.word()).empty(); in.skip_line()) {
-        const std::size_t digit = first.find_first_not_of("+-.");
+        const std::size_t digit = first.find_first_not_of("+-.");  // after a sign and a point at most
         const bool is_number = digit <= 2 && first[digit] >= '0' && first[digit] <= '9';
         if (!is_number) {
             // Its rows of heights would be taken for positions.
@@ -183,9 +183,8 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors
 /// @throws io_error for a text without soundings, an Esri grid, a line of fewer than three numbers or with decimal
-///         commas, soundings that span
-///         less than a spacing or crowd at a few vertices, as those in degrees do, or soundings so far apart that there
-///         are more than 1024 vertices for each, or more than 2^26
+///         commas, soundings that span less than a spacing or crowd at a few vertices, as those in degrees do, or
+///         soundings so far apart that there are more than 1024 vertices for each, or more than 2^26
 inline heightfield parse_xyz(std::string_view text, double spacing, float scale = 1, std::string_view name = "xyz") {
     detail::require_positive_metres("spacing", spacing);
     detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");

@@ -188,11 +188,6 @@ inline height_range added(const height_range& ground, double lowest, double high
 inline height_range including(const height_range& ground, double to) {
     return merge(ground, {to, to});
 }
-/// The range of floats interpolated between heights of a range: rounding may exceed it.
-inline height_range interpolated(const height_range& r) {
-    const double error = 0x1p-21 * (std::max)(numeric::abs(r.lowest), numeric::abs(r.highest));
-    return r.empty() ? r : height_range{r.lowest - error, r.highest + error};
-}
 inline height_range range_after(const raise& e, const height_range& ground) {
     return added(ground, static_cast<double>(e.height), static_cast<double>(e.height));
 }

@@ -183,6 +183,12 @@ inline void require_finite(const height_range& range) {
             "finite heights that it never leaves (a model without `range()` states none)");
 }
 
+/// The range of floats that are interpolated within a range: rounding may exceed it.
+inline height_range interpolated(const height_range& r) {
+    const double error = 0x1p-21 * (std::max)(numeric::abs(r.lowest), numeric::abs(r.highest));
+    return r.empty() ? r : height_range{r.lowest - error, r.highest + error};
+}
+
 template <class S>
 height_range range_of(const S& s) {
     if constexpr (bounded_sampler<S>) return s.range();

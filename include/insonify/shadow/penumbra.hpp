@@ -107,9 +107,8 @@ class penumbra_occlusion {
 /// the one that blocks the light's centre. The disc of a point light faces the origin of the frame in which the light
 /// is described.
 struct penumbra {
-    float diameter =
-        static_cast<float>(numeric::to_radians(0.5));  ///< of the light seen from the ground, 0 to 1 radian
-    int samples = 16;                                  ///< points on the disc, the first at its centre; 1 to 1024
+    float diameter = static_cast<float>(numeric::to_radians(0.5));  ///< seen from the ground, 0 to 1 radian
+    int samples = 16;  ///< points on the disc, the first at its centre; 1 to 1024
 
     /// Radius of the light over its distance.
     /// @throws invalid_input for a diameter out of range

@@ -10,6 +10,7 @@
 #include <insonify/sonar/detail/casting_ground.hpp>
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/overhead/rig.hpp>
+#include <insonify/sonar/scene.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -27,14 +28,9 @@ inline namespace INSONIFY_FLAGS {
 
 /// The light of a rig, in the world.
 inline shadow::any_light light_of(const overhead& rig) {
-    const overhead_geometry view(rig);
-    shadow::any_light light = view.light_source();
-    if (auto* parallel = std::get_if<shadow::directional_light>(&light)) {
-        parallel->azimuth += numeric::widened(rig.yaw);
-    } else {
-        glm::dvec3& position = std::get<shadow::point_light>(light).position;
-        position = numeric::product(glm::transpose(view.rig_from({}).linear), position) + glm::dvec3(rig.position, 0);
-    }
+    shadow::any_light light = overhead_geometry(rig).world_light();
+    if (auto* from_nearby = std::get_if<shadow::point_light>(&light))
+        from_nearby->position += glm::dvec3(rig.position, 0);
     return light;
 }
 
@@ -144,29 +140,18 @@ class scene_occlusion {
         if (s.seabed.empty()) return all;
         const seabed::height_range range = s.seabed.prepare().range();
         seabed::detail::require_finite(range);
-        const detail::ground_rect ground = casting_ground(from_centre(light), within, range.highest, radius);
+        // Around the centre, as the light: the ground below the box, and towards the light.
         const glm::dvec2 centre(centre_);
-        seabed::grid grid = seabed::grid_over(ground.lower + centre, ground.upper + centre, cell_of(within));
+        const double cell = cell_of(within);
+        const detail::ground_rect below{glm::dvec2(within.box.lower) - centre - cell,
+                                        glm::dvec2(within.box.upper) - centre + cell};
+        const detail::ground_rect ground = detail::casting_ground(
+            below, {within.box.lower.z, range.highest}, from_centre(light), radius, within.reach * longer_side(within));
+        seabed::grid grid = seabed::grid_over(ground.lower + centre, ground.upper + centre, cell);
         grid.band_limited = true;
         const seabed::heightfield field = seabed::sample(s.seabed, grid, ex);
         all.push_back({seabed::tessellate(field, ex), around_centre({glm::dmat3(1), glm::dvec3(field.origin, 0)})});
         return all;
-    }
-
-    /// The ground below the box, and towards the light as far as the seabed may reach into a ray, around the centre.
-    detail::ground_rect casting_ground(const shadow::any_light& light, const occlusion_bounds& within, double highest,
-                                       double radius) const {
-        const glm::dvec2 lower = glm::dvec2(within.box.lower) - glm::dvec2(centre_) - cell_of(within),
-                         upper = glm::dvec2(within.box.upper) - glm::dvec2(centre_) + cell_of(within);
-        const auto* const from_nearby = std::get_if<shadow::point_light>(&light);
-        return detail::casting_ground({lower, upper}, {within.box.lower.z, highest}, radius,
-                                      within.reach * longer_side(within), from_nearby != nullptr,
-                                      [&](const glm::dvec2& beside) {
-                                          if (from_nearby != nullptr)
-                                              return shadow::point_of_disc(from_nearby->position, beside);
-                                          const shadow::light_frame frame(std::get<shadow::directional_light>(light));
-                                          return shadow::toward_disc(frame.to_light(), frame.travel(), beside);
-                                      });
     }
 
     glm::dvec3 centre_;

@@ -93,17 +93,20 @@ class block_pool {
             if (blocks_[i].size == size) return take(i);
         return nullptr;
     }
+    INSONIFY_TAGGED static void* new_block(std::size_t size) {
+        return ::operator new (size, std::align_val_t{alignment});
+    }
+    /// A new block. If memory is lacking, frees what is kept and tries once more.
     INSONIFY_TAGGED void* fresh_block(std::size_t size) {
-        const std::align_val_t aligned{alignment};
 #if defined(__cpp_exceptions)
         try {
-            return ::operator new(size, aligned);
+            return new_block(size);
         } catch (const std::bad_alloc&) {
-            const guard lock(busy_);  // what is kept may be what is lacking
+            const guard lock(busy_);
             while (count_ > 0) free_oldest();
         }
 #endif
-        return ::operator new(size, aligned);
+        return new_block(size);
     }
     INSONIFY_TAGGED static void free_block(void* memory) noexcept {
         ::operator delete (memory, std::align_val_t{alignment});

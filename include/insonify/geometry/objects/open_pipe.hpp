@@ -89,7 +89,7 @@ inline mesh to_mesh(const open_pipe& p) {
 /// Fewest segments with which the outside is nowhere farther than `deviation` from its circle.
 /// @throws invalid_input as `segments_for(radius, chord_error)`, and for deviations that need more than 8192 segments
 inline int segments_for(const open_pipe& p, float deviation) {
-    return detail::object_segments_for(0.5f * p.diameter + p.flange, deviation);
+    return detail::ring_segments_for(0.5f * p.diameter + p.flange, deviation);
 }
 
 }  // namespace INSONIFY_FLAGS

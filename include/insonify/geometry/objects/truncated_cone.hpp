@@ -94,7 +94,7 @@ inline mesh to_mesh(const truncated_cone& c) {
 /// Fewest segments with which the base is nowhere farther than `deviation` from its circle.
 /// @throws invalid_input as `segments_for(radius, chord_error)`, and for deviations that need more than 8192 segments
 inline int segments_for(const truncated_cone& c, float deviation) {
-    return detail::object_segments_for(0.5f * c.diameter, deviation);
+    return detail::ring_segments_for(0.5f * c.diameter, deviation);
 }
 
 }  // namespace INSONIFY_FLAGS

@@ -79,7 +79,7 @@ inline mesh to_mesh(const tyre& t) {
 /// Fewest segments with which the tread is nowhere farther than `deviation` from its circle.
 /// @throws invalid_input as `segments_for(radius, chord_error)`, and for deviations that need more than 8192 segments
 inline int segments_for(const tyre& t, float deviation) {
-    return detail::object_segments_for(0.5f * t.diameter, deviation);
+    return detail::ring_segments_for(0.5f * t.diameter, deviation);
 }
 
 }  // namespace INSONIFY_FLAGS

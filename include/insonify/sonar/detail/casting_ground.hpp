@@ -3,6 +3,7 @@
 
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/seabed/model.hpp>
+#include <insonify/shadow/light.hpp>
 
 #include <algorithm>
 
@@ -19,29 +20,32 @@ namespace detail::inline INSONIFY_FLAGS {
 /// cot(elevation) metres or, if the light is near, within that fraction of the distance to it; beyond, it meets
 /// nothing. For an extended light, the corners of a square around it are tried: the distance is a quotient of linear
 /// functions of the position on the light, so its maximum is in a corner.
-/// @param range     heights of the lowest point and of the highest ground
-/// @param radius    of the light over its distance
-/// @param is_near   whether the light is near
-/// @param light_at  light_at(offset): the position of a point of a near light, or the direction to one of a distant
-///                  light, by its offset from the centre, across and up, over the light's distance
-template <class Light>
-ground_rect casting_ground(const ground_rect& points, const seabed::height_range& range, double radius, double longest,
-                           bool is_near, const Light& light_at) {
+/// @param range   heights of the lowest point and of the highest ground
+/// @param light   in the frame of the rectangle; a near one faces the origin
+/// @param radius  of the light over its distance
+inline ground_rect casting_ground(const ground_rect& points, const seabed::height_range& range,
+                                  const shadow::any_light& light, double radius, double longest) {
     ground_rect all = points;
     const double relief = range.highest - range.lowest;
     if (!(relief > 0)) return all;
+    const auto* const from_nearby = std::get_if<shadow::point_light>(&light);
+    const auto light_at = [&](const glm::dvec2& beside) {  // a position if it is near, else a direction
+        if (from_nearby != nullptr) return shadow::point_of_disc(from_nearby->position, beside);
+        const shadow::light_frame frame(std::get<shadow::directional_light>(light));
+        return shadow::toward_disc(frame.to_light(), frame.travel(), beside);
+    };
     const auto clamped = [&](double way) { return (std::max)(-longest, (std::min)(longest, way)); };
     for (const double across : {-radius, radius})
         for (const double up : {-radius, radius}) {
-            const glm::dvec3 light = light_at(glm::dvec2(across, up));
+            const glm::dvec3 to = light_at({across, up});
             for (int axis = 0; axis < 2; ++axis) {
                 for (const double from : {points.lower[axis], points.upper[axis]}) {
                     double way;
-                    if (is_near) {
-                        const double share = light.z > range.highest ? relief / (light.z - range.lowest) : 1;
-                        way = share * (light[axis] - from);
+                    if (from_nearby != nullptr) {
+                        const double share = to.z > range.highest ? relief / (to.z - range.lowest) : 1;
+                        way = share * (to[axis] - from);
                     } else {
-                        way = light.z > 0 ? relief / light.z * light[axis] : longest * (light[axis] < 0 ? -1 : 1);
+                        way = to.z > 0 ? relief / to.z * to[axis] : longest * (to[axis] < 0 ? -1 : 1);
                     }
                     const double end = from + clamped(way);
                     all.lower[axis] = (std::min)(all.lower[axis], end);

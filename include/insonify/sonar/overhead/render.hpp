@@ -95,24 +95,16 @@ class overhead_painter {
     void sample_seabed(E& ex) {
         const overhead& rig = view_.rig();
         seabed::detail::require_position("overhead.position", rig.position);
-        const double longer_side = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y);
         const int longer = (std::max)(rig.size.x, rig.size.y);
-        const double spacing = options_.cell > 0 ? options_.cell : longer_side / ((longer + 1) / 2);
-        require(longer_side <= 32768 * spacing, "cell", spacing, "at least a 32768th of the picture");
+        const double spacing = options_.cell > 0 ? options_.cell : longer_side(view_) / ((longer + 1) / 2);
+        require(spacing >= min_cell(view_), "cell", spacing, "at least a 32768th of the picture");
 
         seabed::height_range range = merge(scene_.seabed.prepare().range(), {0, 0});
         seabed::detail::require_finite(range);
-        const double longest = static_cast<double>(options_.reach) * longer_side;
         ground_rect ground = shown_ground(view_, range);
-        if constexpr (casts) {
-            const bool is_near = view_.has_near_light();
-            const glm::dmat3 along_world_axes = glm::transpose(view_.rig_from({}).linear);
-            ground = casting_ground(
-                ground, range, shadow::radius_of(options_.shadow), longest, is_near, [&](const glm::dvec2& beside) {
-                    return numeric::product(along_world_axes,
-                                            is_near ? view_.light_position(beside) : view_.toward_light(beside));
-                });
-        }
+        if constexpr (casts)
+            ground = casting_ground(ground, range, view_.world_light(), shadow::radius_of(options_.shadow),
+                                    static_cast<double>(options_.reach) * longer_side(view_));
         bottom_.sample(scene_.seabed, rig.position, ground, spacing, ex);
         const image<float>& heights = bottom_.field().heights;
         out_.stats.seabed_samples = heights.size();

@@ -74,20 +74,20 @@ class overhead_geometry {
 
     const overhead& rig() const { return rig_; }
     const shadow::light_frame& light() const { return light_; }
-    /// The light, for shadow policies.
+    bool has_near_light() const { return numeric::is_finite(rig_.light_distance); }
+    /// Position of a near light.
+    glm::dvec3 light_position() const { return static_cast<double>(rig_.light_distance) * light_.to_light(); }
+    /// The light in the rig's frame, for shadow policies.
     shadow::any_light light_source() const {
         if (has_near_light()) return shadow::point_light{light_position()};
         return shadow::directional_light{numeric::widened(rig_.light_azimuth), numeric::widened(rig_.grazing)};
     }
-    /// Direction from the datum below the camera to a point of the light, in units of the distance to its centre;
-    /// `beside` is the offset from the centre, across and up, in the same unit.
-    glm::dvec3 toward_light(const glm::dvec2& beside) const {
-        return shadow::toward_disc(light_.to_light(), light_.travel(), beside);
-    }
-    bool has_near_light() const { return numeric::is_finite(rig_.light_distance); }
-    /// Position of a point of a near light.
-    glm::dvec3 light_position(const glm::dvec2& beside = {0, 0}) const {
-        return static_cast<double>(rig_.light_distance) * toward_light(beside);
+    /// The light along the world's axes, relative to the rig's position.
+    shadow::any_light world_light() const {
+        if (has_near_light())
+            return shadow::point_light{numeric::product(glm::transpose(rig_from_world_.linear), light_position())};
+        return shadow::directional_light{numeric::widened(rig_.light_azimuth) + numeric::widened(rig_.yaw),
+                                         numeric::widened(rig_.grazing)};
     }
 
     /// From an object's frame to the rig's. Subtracts the rig's position before it rotates, so that large coordinates

@@ -8,7 +8,6 @@
 #include <insonify/core/numeric.hpp>
 #include <insonify/core/random.hpp>
 #include <insonify/geometry/mesh.hpp>
-#include <insonify/geometry/revolution.hpp>
 #include <insonify/geometry/transform.hpp>
 
 #include <array>
@@ -38,13 +37,6 @@ inline void require_thickness(const char* name, float metres, float object_size)
 }
 inline void require_segments(const char* name, int value, int low, int high) {
     require_range(name, value, low, high, to_text(low) + " to " + to_text(high));
-}
-
-/// Fewest segments, from 6 to 8192, of a circle whose chords are within `deviation` of it.
-inline int object_segments_for(float radius, float deviation) {
-    const int segments = segments_for(radius, deviation);
-    require(segments <= 8192, "deviation", deviation, "reachable with 8192 segments");
-    return (std::max)(segments, 6);
 }
 
 /// Appends the surface through sections with equal numbers of corners, closed at both ends. The two ends are cut into

@@ -29,6 +29,15 @@ inline ground_rect shown_ground(const overhead_geometry& view, const seabed::hei
     return shown;
 }
 
+/// The longer side of a picture's footprint, metres.
+inline double longer_side(const overhead_geometry& view) {
+    return 2 * (std::max)(view.half_extent(0).x, view.half_extent(0).y);
+}
+/// Lower bound of the spacing of the seabed's vertices, metres.
+inline double min_cell(const overhead_geometry& view) {
+    return longer_side(view) / 32768;
+}
+
 /// Sampled heights and their mesh; empty until `sample` is called.
 class sampled_bottom {
   public:

@@ -132,20 +132,20 @@ class shadow_pass {
     void test_together(const Occlusion& occlusion, const dynamic_array<std::size_t>& undecided, E& ex) {
         // Tiles share a list, and more of them in large pictures, so that batches stay within their number: a list has
         // up to two.
-        const std::size_t tiles = (std::max)(run_, tiles_.count() / (shadow::max_batches / 2) + 1);
+        const std::size_t tiles_per_list = (std::max)(run_, tiles_.count() / (shadow::max_batches / 2) + 1);
         dynamic_array<std::size_t> starts{0};  // of the points of each list
         for (std::size_t i = 0; i < tiles_.count(); ++i) {
-            if (i % tiles == 0) starts.push_back(starts.back());
+            if (i % tiles_per_list == 0) starts.push_back(starts.back());
             starts.back() += undecided[i];
         }
         point_batch all(starts.back(), memory_of(ex));
         light_arrays light(starts.back(), memory_of(ex));
         dynamic_array<point_list> lists;
         for (std::size_t i = 0; i + 1 < starts.size(); ++i) lists.push_back({all, starts[i], starts[i + 1]});
-        bulk_ranges(ex, tiles_.count(), tiles, [&](std::size_t first, std::size_t last) {
+        bulk_ranges(ex, tiles_.count(), tiles_per_list, [&](std::size_t first, std::size_t last) {
             shown_by_surface shown(surfaces_.size());
             for (std::size_t i = first; i < last; ++i)
-                if (undecided[i] > 0) find_points(i, shown, lists[first / tiles]);
+                if (undecided[i] > 0) find_points(i, shown, lists[first / tiles_per_list]);
         });
         const auto part = [&](std::size_t i) { return light.part(starts[i], lists[i].size()); };
         dynamic_array<shadow::points> at;

@@ -210,7 +210,7 @@ class bottom_tiles {
         }
         const auto scale = static_cast<float>(0.5 * scale_);
         const auto slope = [&](float before, float at, float after) {
-            const float central = scale * (after - before);
+            const float central = scale * (after - before);  // finite, unless beside a gap
             return numeric::is_finite(central) ? central : scale * seabed::detail::rise(before, at, after);
         };
         for (std::size_t tile = 0; tile < run.count; ++tile) {
