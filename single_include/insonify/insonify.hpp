@@ -14815,11 +14815,13 @@ class horizon_bounds {
     template <executor E>
     horizon_bounds(const mesh_view& m, const bounding_box& box, const regular_grid& lattice, const glm::dvec3& travel,
                    isa level, E& ex)
-        : grid_(lattice, travel), heights_(m, box, grid_, ex), off_(lattice.off) {
+        : grid_(lattice, travel),
+          heights_(m, box, grid_, ex),
+          beside_(2 * lattice.off + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
         const double greatest = heights_.greatest, least = heights_.least;
         const double relief = grid_.drop * (greatest - least);
         const double size = grid_.columns + grid_.drop * (std::max)(numeric::abs(greatest), numeric::abs(least));
-        margin_ = 0x1p-21 * size + 4 * off_ * (2 + relief);
+        margin_ = 0x1p-21 * size + 4 * lattice.off * (2 + relief);
         first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
         strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;
         bounds_ = insonify::detail::uninitialized_array<float>(
@@ -14843,20 +14845,21 @@ class horizon_bounds {
         using reals = lanes<double, N>;
         using bits = lanes<std::int64_t, N>;
         const reals dx = p[0] - grid_.origin.x, dy = p[1] - grid_.origin.y;
-        reals x = grid_.x_of.x * dx + grid_.x_of.y * dy;
-        reals strip = grid_.y_of.x * dx + grid_.y_of.y * dy - grid_.slope * x - static_cast<double>(first_strip_);
-        const bits exists = bits(x >= 0.0) & bits(x <= static_cast<double>(grid_.columns - 1)) & bits(strip >= 0.0) &
-                            bits(strip < static_cast<double>(strips_));
+        const reals x = grid_.x_of.x * dx + grid_.x_of.y * dy;
+        const reals strip = grid_.y_of.x * dx + grid_.y_of.y * dy - grid_.slope * x - static_cast<double>(first_strip_);
+        const bits exists = bits(x >= 0.0) & bits(x <= static_cast<double>(grid_.columns - 1)) &
+                            bits(strip >= beside_) & bits(strip < strips_ - beside_);
         const reals u = x + grid_.drop * p[2];
-        x = exists ? x : reals{};
-        strip = exists ? strip : reals{};
-        reals dark, lit;
-        const auto at = [&](int k, const float* start) {
-            const std::ptrdiff_t column = static_cast<int>(lane(x, k)), row = static_cast<int>(lane(strip, k));
-            return static_cast<double>(start[column * 2 * strips_ + row]);
+        // A point close to a line of the lattice may lie in a cell beyond it.
+        const reals column = exists ? x : reals{}, ahead = exists ? x + beside_ : reals{};
+        const reals low = exists ? strip - beside_ : reals{}, high = exists ? strip + beside_ : reals{};
+        const auto bound_at = [&](const reals& at, int k) {
+            return bound(static_cast<int>(lane(at, k)), static_cast<int>(lane(low, k)),
+                         static_cast<int>(lane(high, k)));
         };
-        gather<N>(dark, [&](int k) { return at(k, dark_below(0)); });
-        gather<N>(lit, [&](int k) { return at(k, lit_above(0)); });
+        reals dark, lit;
+        gather<N>(dark, [&](int k) { return static_cast<double>(bound_at(column, k).dark_below); });
+        gather<N>(lit, [&](int k) { return static_cast<double>(bound_at(ahead, k).lit_above); });
         const bits is_dark = exists & bits(u < dark - margin_), is_lit = exists & bits(u > lit + margin_);
         answer = is_lit ? bits{} + static_cast<std::int64_t>(decision::lit)
                         : bits{} + static_cast<std::int64_t>(decision::undecided);
@@ -14873,12 +14876,16 @@ class horizon_bounds {
     const grid_heights& heights() const { return heights_; }
     /// Error bound of u, in columns.
     double margin() const { return margin_; }
-    /// Distance bound of vertices from the lattice, in steps.
-    double off() const { return off_; }
+    /// Bound of a vertex's distance from its lattice point, along the light or across, in steps, with a margin.
+    double beside() const { return beside_; }
     bool has_strip(int strip) const { return strip >= 0 && strip < strips_; }
     /// Strip number `strip` of a column holds the points with floor(Y - slope X) = strip + first_strip().
     int first_strip() const { return first_strip_; }
-    horizon_bound bound(int column, int strip) const { return {dark_below(column)[strip], lit_above(column)[strip]}; }
+    /// Bounds of one or two adjacent strips.
+    INSONIFY_INLINE horizon_bound bound(int column, int strip, int next) const {
+        const float *const dark = dark_below(column), *const lit = lit_above(column);
+        return {(std::min)(dark[strip], dark[next]), (std::max)(lit[strip], lit[next])};
+    }
     /// Bounds of a column, by strip.
     const float* dark_below(int column) const {
         return bounds_.data() + static_cast<std::ptrdiff_t>(column) * 2 * strips_;
@@ -14888,7 +14895,7 @@ class horizon_bounds {
   private:
     lit_grid grid_;
     grid_heights heights_;
-    double off_, margin_ = 0;
+    double beside_, margin_ = 0;
     int first_strip_ = 0, strips_ = 0;
     insonify::detail::uninitialized_array<float> bounds_;
 };
@@ -15320,7 +15327,7 @@ class horizon_walk {
           x_(grid_.steps(glm::dvec2(p)).x),
           w_(grid_.steps(glm::dvec2(p)).y - grid_.slope * x_),
           u_(x_ + grid_.drop * p.z),
-          beside_(2 * horizon.off() + 0x1p-30 * grid_.columns) {}
+          beside_(horizon.beside()) {}
 
     /// Whether the surface blocks the ray of a point on it, where it faces the light.
     /// @param decide  decide(triangle): test of a triangle in doubles; false for the triangle of the point
@@ -15395,12 +15402,17 @@ class horizon_walk {
             if (low > grid_.rows - 1 + beside_) continue;
             const int first_row = clamped_row(low - beside_), last_row = clamped_row(high + beside_);
             if (highest(column, first_row, last_row) < u_lower_bound) continue;
-            const double limit = is_first && is_above ? x_ - column : 2;
-            const crossing crossed = cross(column, limit);
-            if (crossed.highest < u_lower_bound) continue;
-            const bool is_inside = low >= beside_ && high <= grid_.rows - 1 - beside_;
-            if (is_above && is_inside && crossed.certain > u_ + horizon_.margin()) return true;
-            if (!is_above && crossed.lowest > u_ + horizon_.margin()) continue;
+            const double limit = is_above ? x_ - column : 2;
+            if (low >= beside_ && high <= grid_.rows - 1 - beside_) {
+                const crossing crossed = cross(column, limit);
+                if (crossed.highest < u_lower_bound) continue;
+                if (is_above && crossed.certain > u_ + horizon_.margin()) return true;
+                if (!is_above && crossed.lowest > u_ + horizon_.margin()) continue;
+            } else {
+                // Close to the border, whose vertices may lie beside the lattice, the ray may leave the grid and enter
+                // it again below the surface.
+                is_above = false;
+            }
             for (int row = first_row; row <= last_row; ++row) {
                 const auto triangle = static_cast<std::uint32_t>(grid_.first_triangle(column, row));
                 if (decide(triangle) || decide(triangle + 1)) return true;
@@ -15411,17 +15423,19 @@ class horizon_walk {
 
     /// Decides by the bounds of a column, once the ray has been followed down to it.
     decision decide_before(int column) const {
-        const int strip = static_cast<int>(w_ - horizon_.first_strip());
-        if (!horizon_.has_strip(strip)) return decision::undecided;
-        const horizon_bound b = horizon_.bound(column, strip);
+        const int strip = static_cast<int>(w_ - beside_ - horizon_.first_strip()),
+                  next = static_cast<int>(w_ + beside_ - horizon_.first_strip());
+        if (!horizon_.has_strip(strip) || !horizon_.has_strip(next)) return decision::undecided;
+        const horizon_bound b = horizon_.bound(column, strip, next);
         if (u_ < static_cast<double>(b.dark_below) - horizon_.margin()) return decision::dark;
         return u_ > static_cast<double>(b.lit_above) + horizon_.margin() ? decision::lit : decision::undecided;
     }
 
+    /// Where the ray stays off the border in this column.
     /// @param limit  position of the point, in columns from this one
     crossing cross(int column, double limit) const {
-        const double slope = grid_.slope, low = row_at(column), high = low + slope;
-        const int row = clamped_row(low);
+        const double slope = grid_.slope, low = row_at(column);
+        const int row = static_cast<int>(low);
         const float *const here = horizon_.heights().column(column) + row, *const ahead =
                                                                                horizon_.heights().column(column + 1) +
                                                                                row;
@@ -15436,27 +15450,19 @@ class horizon_walk {
             found.highest = (std::max)(found.highest, u);
             if (s <= limit - beside_) found.certain = (std::max)(found.certain, u);
         };
-        if (high <= 0 || low >= grid_.rows - 1) {  // along the border
-            add(0, a, c, high <= 0 ? 0 : 1);
-            add(1, b, d, high <= 0 ? 0 : 1);
-            return found;
-        }
         const double start = low - row, end = start + slope, up = (1 - start) / slope;
         const bool stays = end <= 1;
-        if (start >= 0)
-            add(0, a, c, start);
-        else
-            add(-start / slope, a, b, -start / slope);  // it enters over the border
+        add(0, a, c, start);
         if (stays)
             add(1, b, d, end);
         else
             add(up, c, d, up);
         if (grid_.is_rising) {
-            if (stays && start >= 0 && start < 1 - slope) add(start / (1 - slope), a, d, start / (1 - slope));
+            if (stays && start < 1 - slope) add(start / (1 - slope), a, d, start / (1 - slope));
         } else {
             add((1 - start) / (1 + slope), c, b, (1 - start) / (1 + slope));
         }
-        if (stays || row + 2 >= grid_.rows) return found;
+        if (stays) return found;
         const auto e = static_cast<double>(here[2]), f = static_cast<double>(ahead[2]);
         add(1, d, f, end - 1);
         if (!grid_.is_rising) add((2 - start) / (1 + slope), e, d, (2 - start) / (1 + slope));
@@ -15467,7 +15473,7 @@ class horizon_walk {
     const block_heights& blocks_;
     const lit_grid& grid_;
     double x_, w_, u_;
-    double beside_;  ///< bound of a vertex's distance from its lattice point, in columns or rows, with a margin
+    double beside_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS

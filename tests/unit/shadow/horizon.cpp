@@ -147,3 +147,55 @@ TEST_CASE("Few points of a seabed need a triangle test, and all agree with rays"
             CHECK(tested < own.size() * 3 / 4);  // of twice as many points
         }
 }
+
+TEST_CASE("Points close to the edges of cells agree with rays where vertices lie a little beside the lattice") {
+    in::serial_executor serial;
+    const shadow::exact exact;
+    std::size_t tested = 0;
+    for (std::uint32_t number = 0; number < 6000; ++number) {
+        in::random_sequence random(11, 1, number);
+        const auto between = [&](double low, double high) { return random.uniform(low, high); };
+        const int columns = 2 + static_cast<int>(random.below(5)), rows = 2 + static_cast<int>(random.below(5));
+        const double beside = 0x1p-14, relief = random.below(2) == 0 ? 0.3 : 30.0;
+        in::mesh ground;
+        for (int j = 0; j < rows; ++j)
+            for (int i = 0; i < columns; ++i)
+                ground.positions.emplace_back(i + between(-beside, beside), j + between(-beside, beside),
+                                              random.below(3) == 0 ? between(0, relief) : 0);
+        for (int j = 0; j + 1 < rows; ++j)
+            for (int i = 0; i + 1 < columns; ++i) {
+                const auto a = static_cast<std::uint32_t>(j * columns + i);
+                const std::uint32_t b = a + 1, c = b + static_cast<std::uint32_t>(columns), d = c - 1;
+                ground.triangles.push_back({a, b, c});
+                ground.triangles.push_back({a, c, d});
+            }
+        const auto grid = in::regular_grid_of(ground, serial, in::shared_mesh::grid_error);
+        if (!grid) continue;
+        // Along an axis or a diagonal, so that rays follow the edges of cells.
+        const auto light = parallel(45.0 * random.below(8) + between(-1e-3, 1e-3), between(3, 80));
+        const lit::mesh surface(ground, light);
+        lit::point_list points;
+        for (int i = 0; i < 40; ++i) {
+            const auto triangle = random.below(static_cast<std::uint32_t>(ground.triangles.size()));
+            const double sine =
+                glm::dot(surface.normal(triangle), surface.toward({})) / glm::length(surface.normal(triangle));
+            if (!(sine > 1e-4)) continue;
+            // Within a few millionths of a step of a corner or an edge.
+            const double near = std::exp2(between(-19, -13)), v = i % 2 == 0 ? near : between(near, 1 - 2 * near);
+            const int corner = static_cast<int>(random.below(3));
+            const glm::dvec3 a = surface.corner(triangle, corner), b = surface.corner(triangle, (corner + 1) % 3),
+                             c = surface.corner(triangle, (corner + 2) % 3);
+            points.add(a + near * (b - a) + v * (c - a), 0, triangle);
+            points.add(a + near * (b - a) + v * (c - a) + glm::dvec3(0, 0, 1e-3));
+        }
+        if (points.size() == 0) continue;
+        shadow::caster caster = lit::caster_of(ground);
+        caster.may_skip = shadow::skip::facing_its_own;
+        caster.grid = &*grid;
+        const auto built = exact.build(std::span(&caster, 1), light, {points.box()}, serial);
+        CAPTURE(number);
+        CHECK(surface.wrong(points, lit::test(built, points).dark()) == 0);
+        tested += points.size();
+    }
+    CHECK(tested > 100000);
+}

@@ -162,11 +162,13 @@ class horizon_bounds {
     template <executor E>
     horizon_bounds(const mesh_view& m, const bounding_box& box, const regular_grid& lattice, const glm::dvec3& travel,
                    isa level, E& ex)
-        : grid_(lattice, travel), heights_(m, box, grid_, ex), off_(lattice.off) {
+        : grid_(lattice, travel),
+          heights_(m, box, grid_, ex),
+          beside_(2 * lattice.off + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
         const double greatest = heights_.greatest, least = heights_.least;
         const double relief = grid_.drop * (greatest - least);
         const double size = grid_.columns + grid_.drop * (std::max)(numeric::abs(greatest), numeric::abs(least));
-        margin_ = 0x1p-21 * size + 4 * off_ * (2 + relief);
+        margin_ = 0x1p-21 * size + 4 * lattice.off * (2 + relief);
         first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
         strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;
         bounds_ = insonify::detail::uninitialized_array<float>(
@@ -190,20 +192,21 @@ class horizon_bounds {
         using reals = lanes<double, N>;
         using bits = lanes<std::int64_t, N>;
         const reals dx = p[0] - grid_.origin.x, dy = p[1] - grid_.origin.y;
-        reals x = grid_.x_of.x * dx + grid_.x_of.y * dy;
-        reals strip = grid_.y_of.x * dx + grid_.y_of.y * dy - grid_.slope * x - static_cast<double>(first_strip_);
-        const bits exists = bits(x >= 0.0) & bits(x <= static_cast<double>(grid_.columns - 1)) & bits(strip >= 0.0) &
-                            bits(strip < static_cast<double>(strips_));
+        const reals x = grid_.x_of.x * dx + grid_.x_of.y * dy;
+        const reals strip = grid_.y_of.x * dx + grid_.y_of.y * dy - grid_.slope * x - static_cast<double>(first_strip_);
+        const bits exists = bits(x >= 0.0) & bits(x <= static_cast<double>(grid_.columns - 1)) &
+                            bits(strip >= beside_) & bits(strip < strips_ - beside_);
         const reals u = x + grid_.drop * p[2];
-        x = exists ? x : reals{};
-        strip = exists ? strip : reals{};
-        reals dark, lit;
-        const auto at = [&](int k, const float* start) {
-            const std::ptrdiff_t column = static_cast<int>(lane(x, k)), row = static_cast<int>(lane(strip, k));
-            return static_cast<double>(start[column * 2 * strips_ + row]);
+        // A point close to a line of the lattice may lie in a cell beyond it.
+        const reals column = exists ? x : reals{}, ahead = exists ? x + beside_ : reals{};
+        const reals low = exists ? strip - beside_ : reals{}, high = exists ? strip + beside_ : reals{};
+        const auto bound_at = [&](const reals& at, int k) {
+            return bound(static_cast<int>(lane(at, k)), static_cast<int>(lane(low, k)),
+                         static_cast<int>(lane(high, k)));
         };
-        gather<N>(dark, [&](int k) { return at(k, dark_below(0)); });
-        gather<N>(lit, [&](int k) { return at(k, lit_above(0)); });
+        reals dark, lit;
+        gather<N>(dark, [&](int k) { return static_cast<double>(bound_at(column, k).dark_below); });
+        gather<N>(lit, [&](int k) { return static_cast<double>(bound_at(ahead, k).lit_above); });
         const bits is_dark = exists & bits(u < dark - margin_), is_lit = exists & bits(u > lit + margin_);
         answer = is_lit ? bits{} + static_cast<std::int64_t>(decision::lit)
                         : bits{} + static_cast<std::int64_t>(decision::undecided);
@@ -220,12 +223,16 @@ class horizon_bounds {
     const grid_heights& heights() const { return heights_; }
     /// Error bound of u, in columns.
     double margin() const { return margin_; }
-    /// Distance bound of vertices from the lattice, in steps.
-    double off() const { return off_; }
+    /// Bound of a vertex's distance from its lattice point, along the light or across, in steps, with a margin.
+    double beside() const { return beside_; }
     bool has_strip(int strip) const { return strip >= 0 && strip < strips_; }
     /// Strip number `strip` of a column holds the points with floor(Y - slope X) = strip + first_strip().
     int first_strip() const { return first_strip_; }
-    horizon_bound bound(int column, int strip) const { return {dark_below(column)[strip], lit_above(column)[strip]}; }
+    /// Bounds of one or two adjacent strips.
+    INSONIFY_INLINE horizon_bound bound(int column, int strip, int next) const {
+        const float *const dark = dark_below(column), *const lit = lit_above(column);
+        return {(std::min)(dark[strip], dark[next]), (std::max)(lit[strip], lit[next])};
+    }
     /// Bounds of a column, by strip.
     const float* dark_below(int column) const {
         return bounds_.data() + static_cast<std::ptrdiff_t>(column) * 2 * strips_;
@@ -235,7 +242,7 @@ class horizon_bounds {
   private:
     lit_grid grid_;
     grid_heights heights_;
-    double off_, margin_ = 0;
+    double beside_, margin_ = 0;
     int first_strip_ = 0, strips_ = 0;
     insonify::detail::uninitialized_array<float> bounds_;
 };

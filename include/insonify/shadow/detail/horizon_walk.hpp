@@ -96,7 +96,7 @@ class horizon_walk {
           x_(grid_.steps(glm::dvec2(p)).x),
           w_(grid_.steps(glm::dvec2(p)).y - grid_.slope * x_),
           u_(x_ + grid_.drop * p.z),
-          beside_(2 * horizon.off() + 0x1p-30 * grid_.columns) {}
+          beside_(horizon.beside()) {}
 
     /// Whether the surface blocks the ray of a point on it, where it faces the light.
     /// @param decide  decide(triangle): test of a triangle in doubles; false for the triangle of the point
@@ -171,12 +171,17 @@ class horizon_walk {
             if (low > grid_.rows - 1 + beside_) continue;
             const int first_row = clamped_row(low - beside_), last_row = clamped_row(high + beside_);
             if (highest(column, first_row, last_row) < u_lower_bound) continue;
-            const double limit = is_first && is_above ? x_ - column : 2;
-            const crossing crossed = cross(column, limit);
-            if (crossed.highest < u_lower_bound) continue;
-            const bool is_inside = low >= beside_ && high <= grid_.rows - 1 - beside_;
-            if (is_above && is_inside && crossed.certain > u_ + horizon_.margin()) return true;
-            if (!is_above && crossed.lowest > u_ + horizon_.margin()) continue;
+            const double limit = is_above ? x_ - column : 2;
+            if (low >= beside_ && high <= grid_.rows - 1 - beside_) {
+                const crossing crossed = cross(column, limit);
+                if (crossed.highest < u_lower_bound) continue;
+                if (is_above && crossed.certain > u_ + horizon_.margin()) return true;
+                if (!is_above && crossed.lowest > u_ + horizon_.margin()) continue;
+            } else {
+                // Close to the border, whose vertices may lie beside the lattice, the ray may leave the grid and enter
+                // it again below the surface.
+                is_above = false;
+            }
             for (int row = first_row; row <= last_row; ++row) {
                 const auto triangle = static_cast<std::uint32_t>(grid_.first_triangle(column, row));
                 if (decide(triangle) || decide(triangle + 1)) return true;
@@ -187,17 +192,19 @@ class horizon_walk {
 
     /// Decides by the bounds of a column, once the ray has been followed down to it.
     decision decide_before(int column) const {
-        const int strip = static_cast<int>(w_ - horizon_.first_strip());
-        if (!horizon_.has_strip(strip)) return decision::undecided;
-        const horizon_bound b = horizon_.bound(column, strip);
+        const int strip = static_cast<int>(w_ - beside_ - horizon_.first_strip()),
+                  next = static_cast<int>(w_ + beside_ - horizon_.first_strip());
+        if (!horizon_.has_strip(strip) || !horizon_.has_strip(next)) return decision::undecided;
+        const horizon_bound b = horizon_.bound(column, strip, next);
         if (u_ < static_cast<double>(b.dark_below) - horizon_.margin()) return decision::dark;
         return u_ > static_cast<double>(b.lit_above) + horizon_.margin() ? decision::lit : decision::undecided;
     }
 
+    /// Where the ray stays off the border in this column.
     /// @param limit  position of the point, in columns from this one
     crossing cross(int column, double limit) const {
-        const double slope = grid_.slope, low = row_at(column), high = low + slope;
-        const int row = clamped_row(low);
+        const double slope = grid_.slope, low = row_at(column);
+        const int row = static_cast<int>(low);
         const float *const here = horizon_.heights().column(column) + row, *const ahead =
                                                                                horizon_.heights().column(column + 1) +
                                                                                row;
@@ -212,27 +219,19 @@ class horizon_walk {
             found.highest = (std::max)(found.highest, u);
             if (s <= limit - beside_) found.certain = (std::max)(found.certain, u);
         };
-        if (high <= 0 || low >= grid_.rows - 1) {  // along the border
-            add(0, a, c, high <= 0 ? 0 : 1);
-            add(1, b, d, high <= 0 ? 0 : 1);
-            return found;
-        }
         const double start = low - row, end = start + slope, up = (1 - start) / slope;
         const bool stays = end <= 1;
-        if (start >= 0)
-            add(0, a, c, start);
-        else
-            add(-start / slope, a, b, -start / slope);  // it enters over the border
+        add(0, a, c, start);
         if (stays)
             add(1, b, d, end);
         else
             add(up, c, d, up);
         if (grid_.is_rising) {
-            if (stays && start >= 0 && start < 1 - slope) add(start / (1 - slope), a, d, start / (1 - slope));
+            if (stays && start < 1 - slope) add(start / (1 - slope), a, d, start / (1 - slope));
         } else {
             add((1 - start) / (1 + slope), c, b, (1 - start) / (1 + slope));
         }
-        if (stays || row + 2 >= grid_.rows) return found;
+        if (stays) return found;
         const auto e = static_cast<double>(here[2]), f = static_cast<double>(ahead[2]);
         add(1, d, f, end - 1);
         if (!grid_.is_rising) add((2 - start) / (1 + slope), e, d, (2 - start) / (1 + slope));
@@ -243,7 +242,7 @@ class horizon_walk {
     const block_heights& blocks_;
     const lit_grid& grid_;
     double x_, w_, u_;
-    double beside_;  ///< bound of a vertex's distance from its lattice point, in columns or rows, with a margin
+    double beside_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
