@@ -117,7 +117,7 @@ int main(int argc, char** argv) try {
     const in::image<float> port = line_of(scene, rig, in::side::port),
                            starboard = line_of(scene, rig, in::side::starboard);
 
-    const bool is_there = std::filesystem::exists(real);
+    const bool is_there = argc > 1 || std::filesystem::exists(real);
     const in::image<float> below = is_there ? examples::read_gray(real) : in::image<float>(2 * rig.bins, 1);
     in::image<float> page((std::max)(2 * rig.bins, below.width()), rig.pings + 12 + below.height(), 1);
     for (int y = 0; y < rig.pings; ++y)

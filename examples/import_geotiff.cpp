@@ -5,10 +5,16 @@
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
+#include <insonify/seabed/bathymetry.hpp>
+#include <insonify/seabed/detailed.hpp>
+#include <insonify/sonar/side_scan/record_options.hpp>
+#include <insonify/sonar/side_scan/recording.hpp>
+#include <insonify/sonar/speckle.hpp>
 
+#include <charconv>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
+#include <string_view>
 
 #include "common/usage.hpp"
 #include <gdal_priv.h>
@@ -46,7 +52,14 @@ sb::heightfield read_raster(const char* path, float scale) {
 
 int main(int argc, char** argv) try {
     examples::check_arguments(argc, argv, 2, 3, "import_geotiff <file> <out.png> [-1 for depths]");
-    const float scale = argc > 3 ? static_cast<float>(std::atof(argv[3])) : 1.0f;
+    float scale = 1;
+    if (argc > 3) {
+        const std::string_view text = argv[3];
+        const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), scale);
+        if (status != std::errc{} || end != text.data() + text.size() || !in::numeric::is_finite(scale) || scale == 0)
+            throw in::invalid_input("scale is '" + std::string(text) +
+                                    "', expected a number of metres per unit, -1 for depths");
+    }
     const sb::heightfield survey = sb::fill_gaps(read_raster(argv[1], scale), 10);
 
     sb::roughness finer = sb::roughness_of(in::sediment::medium_sand);

@@ -1,8 +1,6 @@
 // Strict checks of option values. Errors name the option, the value and the expected form.
 #pragma once
 
-#include <insonify/core/error.hpp>
-
 #include <charconv>
 #include <cstdint>
 #include <string>
@@ -30,8 +28,8 @@ inline CLI::Validator number(double low, double high) {
             double value = 0;
             const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
             if (status == std::errc{} && end == text.data() + text.size() && value >= low && value <= high) return "";
-            return "'" + text + "' is not a number from " + insonify::detail::to_text(low) + " to " +
-                   insonify::detail::to_text(high);
+            return "'" + text + "' is not a number from " + CLI::detail::to_string(low) + " to " +
+                   CLI::detail::to_string(high);
         },
         "", "number");
 }

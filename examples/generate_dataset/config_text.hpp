@@ -20,8 +20,7 @@ class strict_config : public CLI::ConfigTOML {
     std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
         std::ostringstream all;
         all << input.rdbuf();
-        check(all.str());
-        std::istringstream text(all.str());
+        std::istringstream text(checked(all.str()));
         return CLI::ConfigTOML::from_config(text);
     }
 
@@ -30,20 +29,23 @@ class strict_config : public CLI::ConfigTOML {
         throw CLI::ConfigError("--config: line " + std::to_string(line) + ": " + reason, CLI::ExitCodes::ConfigError);
     }
 
-    void check(const std::string& text) const {
+    /// The text without comments, which CLI11 takes for a part of the value behind a list.
+    std::string checked(const std::string& text) const {
         std::istringstream lines(text);
+        std::string bare;
         std::string line;
         bool in_array = false;
         for (std::size_t number = 1; std::getline(lines, line); ++number) {
             for (const char c : line)
                 if ((c >= '\0' && c < ' ' && c != '\t' && c != '\r') || c == '\x7F')
                     refuse(number, "this is not a text file; write lines like `count = 24`");
-            CLI::detail::trim(line);
+            line = without_comment(line);
+            bare += line + "\n";
             if (in_array) {
                 in_array = !line.ends_with(']');
                 continue;
             }
-            if (line.empty() || line[0] == '#' || line[0] == ';') continue;
+            if (line.empty() || line[0] == ';') continue;
             const std::size_t equals = line.find('=');
             if (line[0] == '[') refuse(number, "'" + shortened(line) + "' is a section; options have none, remove it");
             if (equals == std::string::npos) refuse(number, "'" + shortened(line) + "' is not `option = value`");
@@ -52,11 +54,26 @@ class strict_config : public CLI::ConfigTOML {
             if (app_.get_option_no_throw("--" + name) == nullptr || name == "config" || name == "help")
                 refuse(number, "'" + shortened(name) + "' is not an option; --help lists them");
             if (value.empty()) refuse(number, "'" + name + "' has no value");
-            value = CLI::detail::trim_copy(value.substr(0, value.find('#')));
+            // CLI11 splits at blanks, and an option with one value would take the last part.
+            if (app_.get_option("--" + name)->get_items_expected_max() == 1 &&
+                value.find_first_of(" \t") != std::string::npos && value[0] != '"' && value[0] != '\'' &&
+                value[0] != '[')
+                refuse(number, "'" + name + "': put a value with blanks in quotes");
             if (value == "[") refuse(number, "'" + name + " = [': begin the list on this line");
             in_array = value.starts_with('[') && !value.ends_with(']');
         }
         if (in_array) refuse(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')), "']' is missing");
+        return bare;
+    }
+
+    /// The text before a '#' that is not in quotes, trimmed.
+    static std::string without_comment(const std::string& line) {
+        char quote = 0;
+        std::size_t end = 0;
+        for (; end < line.size() && (quote != 0 || line[end] != '#'); ++end)
+            if (quote != 0 ? line[end] == quote : line[end] == '"' || line[end] == '\'')
+                quote = quote != 0 ? '\0' : line[end];
+        return CLI::detail::trim_copy(line.substr(0, end));
     }
 
     static std::string shortened(const std::string& text) {

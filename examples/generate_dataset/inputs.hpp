@@ -8,6 +8,7 @@
 
 #include "../common/pictures.hpp"
 #include "checksum.hpp"
+#include <nlohmann/json.hpp>
 
 namespace generator {
 
@@ -17,6 +18,13 @@ struct input {
     std::uint64_t bytes;
     std::string sha256;
 };
+
+/// The name of a file as config.json and manifests hold it: bytes that are not UTF-8 are replaced.
+inline std::string utf8_name(const std::string& path) {
+    const std::string name = std::filesystem::path(path).filename().string();
+    return nlohmann::json::parse(nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))
+        .get<std::string>();
+}
 
 /// Reads input files and lists them.
 class input_reader {
@@ -37,7 +45,7 @@ class input_reader {
     }
     /// Lists a file that was read elsewhere.
     void add(const std::string& option, const std::string& path, const std::string& bytes) {
-        list_.push_back({option, std::filesystem::path(path).filename().string(), bytes.size(), sha256(bytes)});
+        list_.push_back({option, utf8_name(path), bytes.size(), sha256(bytes)});
     }
 
     insonify::image<float> read_picture(const std::string& option, const std::string& path) {
@@ -66,7 +74,9 @@ inline std::vector<std::string> picture_paths(const std::vector<std::string>& re
             if (!entry.is_regular_file()) continue;
             char head[16] = {};
             const insonify::detail::file_handle file(entry.path().string(), "rb");
-            const std::size_t size = file.get() == nullptr ? 0 : std::fread(head, 1, sizeof head, file.get());
+            if (file.get() == nullptr)
+                insonify::detail::raise_io("--reference " + entry.path().string(), "can't open for reading", errno);
+            const std::size_t size = std::fread(head, 1, sizeof head, file.get());
             if (examples::is_picture({head, size})) inside.push_back(entry.path().string());
         }
         if (inside.empty())

@@ -69,7 +69,9 @@ int verify(const generator::options& o, const generator::shared_inputs& shared, 
     };
     for_each_index(pool, work, [&](const auto& next) {
         for (std::uint64_t i = next(); i < work.last; i = next()) {
-            if (const auto fault = generator::fault_of(root, generator::image_id(o, i), true)) report(*fault);
+            if (const auto fault =
+                    generator::fault_of(root, generator::image_id(o, i), before, generator::depth::pixels))
+                report(*fault);
             bar.finished_one();
         }
     });
@@ -97,7 +99,8 @@ int generate(const generator::options& o, const generator::shared_inputs& shared
         std::fprintf(stderr, "%s: no file locks here (%s); concurrent runs may make the same images twice\n",
                      o.out.c_str(), lock.without().c_str());
     generator::staging into(root, o.shard.given ? "shard" + std::to_string(o.shard.number) : "all");
-    generator::pin(root, "config.json", generator::configuration_of(o, shared.inputs()), into);
+    const generator::json config = generator::configuration_of(o, shared.inputs());
+    generator::pin(root, "config.json", config, into);
     if (o.shard.given)
         generator::pin(root, "shards.json", generator::shards_of(o), into);
     else if (std::filesystem::exists(root / "shards.json"))
@@ -112,7 +115,7 @@ int generate(const generator::options& o, const generator::shared_inputs& shared
         generator::writer files(into);
         for (std::uint64_t i = next(); i < work.last; i = next()) {
             const std::uint64_t id = generator::image_id(o, i);
-            if (const auto fault = generator::fault_of(root, id, false)) {
+            if (const auto fault = generator::fault_of(root, id, config, generator::depth::checksums)) {
                 files.add(generator::files_of(o, i, shared));
                 ++made;
                 if (std::filesystem::exists(root / generator::record_path(id)) && ++repaired <= 100)

@@ -18,8 +18,8 @@ using insonify::io_error;
 
 /// The files of an image; the record is the last one.
 /// @throws io_error if the image is not complete
-std::vector<generator::file> read_image(const fs::path& from, std::uint64_t index) {
-    if (const auto fault = generator::fault_of(from, index, false))
+std::vector<generator::file> read_image(const fs::path& from, std::uint64_t index, const json& config) {
+    if (const auto fault = generator::fault_of(from, index, config, generator::depth::checksums))
         throw io_error(from.string() + "/" + *fault + "; run the shard again");
     const std::string path = generator::record_path(index), text = insonify::read_file((from / path).string());
     std::vector<generator::file> files;
@@ -40,15 +40,17 @@ void copy_missing(const fs::path& root, const fs::path& from, generator::staging
         if (theirs.is_null() && generator::pinned(root, name).is_null()) continue;
         generator::pin(root, name, theirs, into);
     }
+    const json config = generator::pinned(root, "config.json");
     generator::writer files(into);
     generator::for_each_record(from, [&](const std::string&, std::uint64_t index) {
-        if (generator::fault_of(root, index, false)) files.add(read_image(from, index));
+        if (generator::fault_of(root, index, config, generator::depth::checksums))
+            files.add(read_image(from, index, config));
     });
     files.finish();
 }
 
-/// @throws io_error that lists the shards with missing images
-void check_complete(const fs::path& root, const json& shards) {
+/// @throws io_error that lists the shards with missing images, or such whose files have other sizes than recorded
+void check_complete(const fs::path& root, const json& config, const json& shards) {
     const auto first = shards.at("first").get<std::uint64_t>(), count = shards.at("count").get<std::uint64_t>(),
                of = shards.at("shards").get<std::uint64_t>();
     std::vector<std::uint64_t> ids;  // of a plan whose ids have gaps
@@ -63,7 +65,8 @@ void check_complete(const fs::path& root, const json& shards) {
         std::uint64_t lacking = 0, example = 0;
         for (std::uint64_t i = range.first; i < range.last; ++i) {
             const std::uint64_t expected = ids.empty() ? i : ids[static_cast<std::size_t>(i - first)];
-            if (!fs::exists(root / generator::record_path(expected)) && lacking++ == 0) example = expected;
+            if (generator::fault_of(root, expected, config, generator::depth::sizes) && lacking++ == 0)
+                example = expected;
         }
         if (lacking > 0 && missing < 1'000'000 && text.size() < 2000)
             text += "\n  shard " + std::to_string(k) + "/" + std::to_string(of) + " lacks " + std::to_string(lacking) +
@@ -72,7 +75,7 @@ void check_complete(const fs::path& root, const json& shards) {
     }
     if (missing > 0)
         throw io_error(root.string() + ": " + std::to_string(missing) + " of " + std::to_string(count) +
-                       " images are missing; run these shards again, then merge:" + text);
+                       " images are missing or damaged; run these shards again, then merge:" + text);
 }
 
 }  // namespace
@@ -104,7 +107,8 @@ int main(int argc, char** argv) try {
         for (const std::string& folder : folders) copy_missing(root, generator::folder_path(folder), into);
         const json config = generator::pinned(root, "config.json");
         if (config.is_null()) throw io_error(out + ": holds no data set; name the folders of its shards, too");
-        if (const json shards = generator::pinned(root, "shards.json"); !shards.is_null()) check_complete(root, shards);
+        if (const json shards = generator::pinned(root, "shards.json"); !shards.is_null())
+            check_complete(root, config, shards);
         images = generator::write_tables(root, preview, into);
     }
     fs::remove(root / "shards.json");

@@ -19,7 +19,7 @@ constexpr std::string_view checksum_prefix = R"(,"sha256":")", checksum_suffix =
 constexpr std::size_t checksum_digits = 64;
 
 /// Why one file of a record is missing or altered; empty if it is not.
-std::optional<std::string> file_fault(const fs::path& root, const json& record, const json& entry, bool thorough) {
+std::optional<std::string> file_fault(const fs::path& root, const json& record, const json& entry, depth checked) {
     const std::string name = entry.at("path").get<std::string>();
     const std::string path = (root / name).string();
     std::error_code failed;
@@ -27,11 +27,12 @@ std::optional<std::string> file_fault(const fs::path& root, const json& record, 
     if (failed) return name + ": is missing (" + failed.message() + ")";
     const auto expected = entry.at("bytes").get<std::uint64_t>();
     if (size != expected) return name + ": has " + std::to_string(size) + " bytes, had " + std::to_string(expected);
+    if (checked == depth::sizes) return std::nullopt;
     const std::string bytes = insonify::read_file(path);
     const std::string sum = sha256(bytes);
     if (sum != entry.at("sha256").get<std::string>())
         return name + ": SHA-256 is " + sum + ", was " + entry.at("sha256").get<std::string>();
-    if (thorough) return decode_fault(bytes, name, record, entry);
+    if (checked == depth::pixels) return decode_fault(bytes, name, record, entry);
     return std::nullopt;
 }
 
@@ -85,15 +86,30 @@ json parse_record(const std::string& text, const std::string& name) {
     return record;
 }
 
-std::optional<std::string> fault_of(const fs::path& root, std::uint64_t index, bool thorough) {
+std::string differing_parameters(const json& record, const json& config) {
+    for (const auto& [name, facts] : config.at("inputs").items())
+        if (name.find(" --plan ") != std::string::npos) return "";
+    std::string text;
+    for (const auto& [parameter, option] : {std::pair("recipe", "recipe"), {"seed", "seed"}, {"size_px", "size"}}) {
+        const json& parameters = record.at("parameters");
+        if (!parameters.contains(parameter) || parameters.at(parameter) == config.at(option)) continue;
+        text += std::string(text.empty() ? "" : ", ") + option + " " + parameters.at(parameter).dump() +
+                " instead of " + config.at(option).dump();
+    }
+    return text;
+}
+
+std::optional<std::string> fault_of(const fs::path& root, std::uint64_t index, const json& config, depth checked) {
     const std::string name = record_path(index);
     const std::string path = (root / name).string();
     if (!fs::exists(path)) return name + ": is missing";
     try {
         const json record = parse_record(insonify::read_file(path), name);
         if (record.at("id") != index) return name + ": is the record of image " + record.at("id").dump();
+        if (const std::string other = differing_parameters(record, config); !other.empty())
+            return name + ": is of another set, with " + other;
         for (const json& entry : record.at("files"))
-            if (auto fault = file_fault(root, record, entry, thorough)) return fault;
+            if (auto fault = file_fault(root, record, entry, checked)) return fault;
     } catch (const std::exception& error) {
         return error.what();
     }

@@ -29,9 +29,17 @@ std::string record_text(const json& record);
 /// @throws io_error if the record is truncated or altered
 json parse_record(const std::string& text, const std::string& name);
 
-/// Why an image is incomplete: its record or one of its files is missing or altered. Empty if it is complete.
-/// @param thorough  also decodes the files and compares masks with annotations
-std::optional<std::string> fault_of(const std::filesystem::path& root, std::uint64_t index, bool thorough);
+/// What is compared with a record: the sizes of files; also their checksums; also decoded masks with annotations.
+enum class depth { sizes, checksums, pixels };
+
+/// Why an image is incomplete: its record or one of its files is missing or altered, or the record is of a set with
+/// another seed, recipe or size. Empty if it is complete.
+/// @param config  the set's config.json
+std::optional<std::string> fault_of(const std::filesystem::path& root, std::uint64_t index, const json& config,
+                                    depth checked);
+
+/// Which of seed, recipe and size of a record are not the set's; empty if all are. Rows of a plan may have their own.
+std::string differing_parameters(const json& record, const json& config);
 
 /// Calls `visit` with the relative path of each record, by increasing id. Holds the names of one block in memory.
 /// @throws io_error for a file whose name is not a record's

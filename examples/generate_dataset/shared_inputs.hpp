@@ -29,6 +29,7 @@ class shared_inputs {
             const std::string name = mesh.substr(0, equals), path = mesh.substr(equals + 1);
             in::mesh shape = in::read_obj(reader.read("--mesh " + name, path), "--mesh " + name + " " + path);
             if (!has_area(shape)) throw in::io_error("--mesh " + name + " " + path + ": its polygons have no area");
+            check_place(shape, "--mesh " + name + " " + path);
             meshes_[name] = upright(std::move(shape), o.mesh_up == "y");
         }
         if (!o.heightmap.empty()) {
@@ -39,7 +40,7 @@ class shared_inputs {
             check_heights(o);
         }
         for (const std::string& path : picture_paths(o.references)) {
-            names_.push_back(std::filesystem::path(path).filename().string());
+            names_.push_back(utf8_name(path));
             references_.push_back(in::distribution_of(with_values(reader.read_picture("--reference", path), path)));
         }
         if (o.table) reader.add("--plan", o.table->name(), o.table->text());
@@ -81,6 +82,19 @@ class shared_inputs {
             if (in::numeric::cross(b - a, c - a) != glm::dvec3(0)) return true;
         }
         return false;
+    }
+
+    /// @throws io_error where floats would move vertices by more than 0.001 of the mesh's size, as in map coordinates
+    static void check_place(const in::mesh& m, const std::string& name) {
+        const in::bounding_box box = in::bounds(m);
+        const glm::dvec3 size = box.size();
+        const double largest = (std::max)({size.x, size.y, size.z});
+        double farthest = 0;
+        for (int i = 0; i < 3; ++i) farthest = (std::max)({farthest, -box.lower[i], box.upper[i]});
+        if (farthest > 1e4 * largest)
+            throw in::io_error(name + ": is " + in::detail::to_text(largest) + " m in size and lies " +
+                               in::detail::to_text(farthest) +
+                               " m from the origin, where floats round its shape; move it to the origin");
     }
 
     /// Rotates z up, centres the mesh and scales its largest extent to 1.

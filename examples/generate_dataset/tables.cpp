@@ -143,6 +143,8 @@ std::uint64_t write_once(const fs::path& root, bool preview, staging& into) {
         const json record = parse_record(text, name);
         if (record.at("id") != index)
             throw insonify::io_error(name + ": is the record of image " + record.at("id").dump() + "; remove it");
+        if (const std::string other = differing_parameters(record, config); !other.empty())
+            throw insonify::io_error(name + ": is of another set, with " + other + "; remove it");
         if (images == 0) manifest.write(line_of(record, true));
         manifest.write(line_of(record, false));
         card.add(record);

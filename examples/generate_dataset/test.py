@@ -264,6 +264,12 @@ class Generator(unittest.TestCase):
             index = int(row["index"])
             yield values, boxes.get((index, "target")), boxes.get((index, "shadow"))
 
+    def test_a_mesh_in_map_coordinates_is_refused(self):
+        mesh = self.folder / "m.obj"
+        mesh.write_text("v 500000 5400000 0\nv 500002 5400000 0\nv 500000 5400002 0\nv 500000 5400000 2\n"
+                        "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
+        self.assertIn("move it to the origin", refusal("--out", self.folder / "a", "--mesh", f"wreck={mesh}"))
+
     def test_labels_of_every_mode_match_closed_forms(self):
         # A sphere resting on level sand: the closed forms depend on its radius r and the height z of its centre.
         checked = {}
@@ -538,13 +544,20 @@ class Generator(unittest.TestCase):
                              (b"\x7fELF\x02\x01\0\0\n", "line 1: this is not a text file"),
                              (b"count = -1\n", "--count: '-1'"), (b"count =\n", "'count' has no value"),
                              (b"targets = [\n\"cone\",\n]\n", "begin the list on this line"),
+                             (b"out = my sets/a\n", "line 1: 'out': put a value with blanks in quotes"),
                              (b"targets = [\"cone\",\n\"cube\"\n", "']' is missing")):
             config.write_bytes(text)
             self.assertIn(reason, refusal("--config", config, "--out", out))
             self.assertFalse(out.exists())
-        config.write_text('# a set\nsize = 64  # small\ncount = 2\ntargets = ["cone",\n  "cube"]\n')
+        config.write_text('# a set\nsize = 64  # small\ncount = 2\ntargets = ["cone",  # first\n  "cube"] # both\n')
         run("--config", config, "--out", out)
         self.assertEqual(len(digest(out / "images")), 2)
+
+    def test_a_config_file_names_folders_with_blanks_in_quotes(self):
+        config = self.folder / "set.toml"
+        config.write_text(f'size = 32\ncount = 1\nout = "{self.folder}/my sets"\n')
+        run("--config", config)
+        self.assertEqual(len(digest(self.folder / "my sets" / "images")), 1)
 
     @unittest.skipUnless(hasattr(os, "mkfifo"), "needs pipes")
     def test_folders_pipes_and_devices_are_refused_as_input(self):
@@ -733,6 +746,23 @@ class Generator(unittest.TestCase):
         config.write_text(config.read_text().replace('"version": "insonify ', '"version": "insonify 9'))
         self.assertRegex(run(*options, expect=1), r'version was "insonify 9[\d.]+", is "insonify \d')
 
+    @unittest.skipUnless(sys.platform == "linux", "needs file names that are not UTF-8")
+    def test_inputs_may_have_names_that_are_not_utf_8(self):
+        picture, mesh = os.fsencode(self.folder) + b"/b\xfcld.pgm", os.fsencode(self.folder) + b"/wr\xe4ck.obj"
+        os.rename(pgm(self.folder / "r.pgm"), picture)
+        with open(mesh, "w") as file:
+            file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
+        command = [GENERATOR, *with_recipe(SMALL), "--reference", picture, "--mesh", b"wreck=" + mesh, "--out"]
+        first = subprocess.run([*command, self.folder / "a"], capture_output=True, timeout=300)
+        self.assertEqual(first.returncode, 0, first.stderr)
+        again = subprocess.run([*command, self.folder / "a"], capture_output=True, timeout=300)
+        self.assertIn(b"0 of them new", again.stdout, again.stderr)
+        replayed = subprocess.run([GENERATOR, "--plan", self.folder / "a" / "manifest.csv", "--reference", picture,
+                                   "--mesh", b"wreck=" + mesh, "--out", self.folder / "b"], capture_output=True,
+                                  timeout=300)
+        self.assertEqual(replayed.returncode, 0, replayed.stderr)
+        self.assertEqual(digest(self.folder / "a" / "images"), digest(self.folder / "b" / "images"))
+
     def test_a_billion_images_start_at_once(self):
         process = subprocess.Popen([GENERATOR, "--out", self.folder / "a", "--size", "32", "--count", "1000000000"],
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -893,6 +923,34 @@ class Shards(unittest.TestCase):
         image.write_bytes(good)
         run(self.folder / "a", *folders, program=MERGE)
         self.assertEqual(self.whole, digest(self.folder / "a"))
+
+    def test_a_merge_names_shards_whose_files_are_missing_or_short(self):
+        for k in range(2):
+            run("--out", self.folder / "a", *SMALL, "--shard", f"{k}/2")
+        next((self.folder / "a" / "images").rglob("000000001.png")).unlink()
+        (self.folder / "a" / "masks" / "000000" / "000000006_target.png").write_bytes(b"")
+        text = run(self.folder / "a", program=MERGE, expect=1)
+        self.assertIn("2 of 8 images are missing or damaged", text)
+        self.assertIn("shard 0/2 lacks 1 images, the first is 000000001", text)
+        self.assertIn("shard 1/2 lacks 1 images, the first is 000000006", text)
+        for k in range(2):
+            run("--out", self.folder / "a", *SMALL, "--shard", f"{k}/2")
+        run(self.folder / "a", program=MERGE)
+        self.assertEqual(self.whole, digest(self.folder / "a"))
+
+    def test_images_of_a_set_with_another_seed_are_named(self):
+        for seed, k in (5, 0), (6, 1):
+            run("--out", self.folder / f"s{seed}", *SMALL, "--seed", seed, "--shard", f"{k}/2")
+        shutil.copytree(self.folder / "s6" / "records", self.folder / "s5" / "records", dirs_exist_ok=True)
+        for name in "images", "masks":
+            shutil.copytree(self.folder / "s6" / name, self.folder / "s5" / name, dirs_exist_ok=True)
+        self.assertIn("shard 1/2 lacks 4 images", run(self.folder / "s5", program=MERGE, expect=1))
+        (self.folder / "s5" / "shards.json").unlink()
+        self.assertIn("is of another set, with seed 6 instead of 5", run(self.folder / "s5", program=MERGE, expect=1))
+        faults = run("--out", self.folder / "s5", *SMALL, "--verify", expect=1)
+        self.assertEqual(faults.count("is of another set, with seed 6 instead of 5"), 4)
+        run("--out", self.folder / "s5", *SMALL)
+        self.assertEqual(self.whole, digest(self.folder / "s5"))
 
     def test_a_hostile_shard_writes_nothing_outside_the_folder(self):
         run("--out", self.folder / "a", *SMALL)

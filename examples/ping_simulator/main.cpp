@@ -14,8 +14,11 @@
 #include <exception>
 #include <filesystem>
 #include <mutex>
+#include <set>
+#include <system_error>
 #include <thread>
 
+#include "../common/option_values.hpp"
 #include "../common/refusal.hpp"
 #include "chip.hpp"
 #include <CLI/CLI.hpp>
@@ -49,7 +52,7 @@ options parse(int argc, char** argv) {
         ->expected(1, 16)
         ->check(CLI::IsMember({"flat", "ripples"}));
     app.add_option("--seed", o.seed, "Another seed is another set (1)")->check(CLI::Range(std::int64_t{0}, INT64_MAX));
-    app.add_option("--chip", o.chip, "Metres a side (5)")->check(CLI::Range(0.5, 100.0));
+    app.add_option("--chip", o.chip, "Metres a side (5)")->check(examples::number(0.5, 100));
     app.add_option("--pixels", o.pixels, "A side (128)")->check(CLI::Range(16, 4096));
     app.add_option("--threads", o.threads, "0: one for each hardware thread; never changes a byte")
         ->check(CLI::Range(0, 1024));
@@ -81,11 +84,29 @@ void on_threads(unsigned threads, std::size_t count, const Fn& fn) {
     };
     {
         std::vector<std::thread> others;
-        for (unsigned t = 1; t < threads; ++t) others.emplace_back(work);
+        try {
+            for (unsigned t = 1; t < threads; ++t) others.emplace_back(work);
+        } catch (const std::system_error&) {  // no more threads: those that started do the work
+        }
         work();
         for (std::thread& t : others) t.join();
     }
     if (failure) std::rethrow_exception(failure);
+}
+
+/// Removes the chips of an earlier set in the folder, which may have had more.
+void remove_other_chips(const std::string& out, const std::set<std::string>& kept) {
+    for (const char* const name : pings::class_names) {
+        const std::string folder = std::string("images/") + name + "/";
+        std::vector<std::string> others;
+        for (const auto& entry : std::filesystem::directory_iterator(out + "/" + folder)) {
+            const std::string file = entry.path().filename().string();
+            const bool is_chip =
+                file.size() >= 10 && file.find_first_not_of("0123456789") == file.size() - 4 && file.ends_with(".png");
+            if (is_chip && !kept.contains(folder + file)) others.push_back(folder + file);
+        }
+        for (const std::string& other : others) std::filesystem::remove(out + "/" + other);
+    }
 }
 
 }  // namespace
@@ -105,6 +126,11 @@ int main(int argc, char** argv) try {
         return std::string("images/") + pings::class_names[kinds[i]] + "/" +
                std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits + ".png";
     };
+    remove_other_chips(o.out, [&] {
+        std::set<std::string> kept;
+        for (std::size_t i = 0; i < kinds.size(); ++i) kept.insert(file_of(i));
+        return kept;
+    }());
     const unsigned threads = o.threads > 0 ? o.threads : std::max(1u, std::thread::hardware_concurrency());
     on_threads(threads, kinds.size(), [&](std::size_t i) {
         pings::scene s = scene_at(i);

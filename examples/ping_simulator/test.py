@@ -8,6 +8,7 @@ import pathlib
 import re
 import statistics
 import struct
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -63,10 +64,10 @@ class Simulator(unittest.TestCase):
 
     def test_nothing_is_the_librarys_but_the_writing_of_files(self):
         here = pathlib.Path(__file__).parent
-        shared = "../common/refusal.hpp"  # of command lines; looked through as well
-        for source in [*here.glob("*.[ch]pp"), here / shared]:
+        shared = "../common/option_values.hpp", "../common/refusal.hpp"  # of command lines; looked through as well
+        for source in [*here.glob("*.[ch]pp"), *(here / name for name in shared)]:
             for header in re.findall(r'#include [<"](.*)[>"]', source.read_text()):
-                if header.startswith(("insonify", "..")) and header != shared:
+                if header.startswith(("insonify", "..")) and header not in shared:
                     self.assertIn(header, ("insonify/io/png.hpp", "insonify/io/manifest.hpp"), source)
 
     def test_the_same_bytes_for_any_number_of_threads(self):
@@ -106,6 +107,25 @@ class Simulator(unittest.TestCase):
 
     def test_invalid_options_are_refused_with_a_reason(self):
         self.assertIn("--out is required", run(expect=2))
+        self.assertIn("'nan' is not a number", run("--out", self.folder / "a", "--chip", "nan", expect=2))
+
+    def test_a_smaller_set_leaves_no_chip_of_a_larger_one(self):
+        for counts in "2,2,2", "1,2,1":
+            run("--out", self.folder / "a", "--counts", counts, "--pixels", 16)
+        (self.folder / "a" / "images" / "cube" / "notes.png").touch()
+        run("--out", self.folder / "a", "--counts", "1,1,1", "--pixels", 16)
+        listed = {row["file"] for row in csv.DictReader((self.folder / "a" / "manifest.csv").read_text().splitlines())}
+        kept = {str(path.relative_to(self.folder / "a")) for path in (self.folder / "a" / "images").rglob("*.png")}
+        self.assertEqual(kept, listed | {"images/cube/notes.png"})
+
+    @unittest.skipUnless(sys.platform == "linux", "needs a limit of the address space")
+    def test_draws_with_fewer_threads_if_some_cannot_start(self):
+        def limit():
+            import resource
+            resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
+        done = subprocess.run([SIMULATOR, "--out", self.folder / "a", "--counts", "2,1,1", "--pixels", "16",
+                               "--threads", "1024"], capture_output=True, timeout=120, preexec_fn=limit)
+        self.assertEqual(done.returncode, 0, done.stderr)
 
 
 if __name__ == "__main__":

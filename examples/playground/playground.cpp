@@ -5,7 +5,14 @@
 extern "C" [[noreturn]] void playground_fail(const char* message);  // throws a JavaScript error
 #define INSONIFY_THROW(error) playground_fail((error).what())
 
+#include <insonify/geometry/objects/boulder.hpp>
+#include <insonify/geometry/objects/lobster_pot.hpp>
+#include <insonify/geometry/objects/truncated_cone.hpp>
+#include <insonify/geometry/objects/tyre.hpp>
 #include <insonify/insonify.hpp>
+#include <insonify/seabed/blend.hpp>
+#include <insonify/sonar/side_scan/recording.hpp>
+#include <insonify/sonar/speckle.hpp>
 
 #include <cstdint>
 

@@ -128,7 +128,8 @@ inline std::vector<std::string> pictures_in(const std::string& folder) {
     std::set<std::string> paths;
     if (std::filesystem::is_directory(folder))
         for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-            if (entry.is_regular_file()) paths.insert(entry.path().string());
+            if (entry.is_regular_file() && !entry.path().filename().string().starts_with('.'))
+                paths.insert(entry.path().string());
     return {paths.begin(), paths.end()};
 }
 

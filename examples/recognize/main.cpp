@@ -2,6 +2,7 @@
 //
 // tools/recognize runs the whole experiment: builds this and ping_simulator, makes the simulator's sets, and writes the
 // figures of docs/recognition.md to out/recognize.
+#include "../common/option_values.hpp"
 #include "../common/refusal.hpp"
 #include "classifier.hpp"
 #include "report.hpp"
@@ -31,10 +32,14 @@ options parse(int argc, char** argv) {
     app.add_option("--test", o.test, "The simulator's test set: images/<class>/*.png")->required();
     app.add_option("--own", o.own, "Another set of the simulator, to train the ceiling on");
     app.add_option("--references", o.references, "A third one, to match histograms with where a recipe does");
-    app.add_option("--recipes", o.recipes, "Of overhead, ground_range, slant_range (all)")->delimiter(',');
+    app.add_option("--recipes", o.recipes, "Of overhead, ground_range, slant_range; none beside --try (all)")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"none", "overhead", "ground_range", "slant_range"}));
     app.add_option("--try", o.tried, "Another recipe: options of generate_dataset, as one word; repeat for more")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--sizes", o.sizes, "How many training pictures, 3 at least (80,390)")->delimiter(',');
+    app.add_option("--sizes", o.sizes, "How many training pictures, 10 at least (80,390)")
+        ->delimiter(',')
+        ->check(examples::whole_number(10, 1'000'000));
     app.add_option("--seeds", o.seeds, "Trainings of each kind (10)")->check(CLI::Range(1, 1000));
     app.add_option("--synthetic-test", o.synthetic,
                    "Pictures of each class that test on a recipe's own kind; a third of those published (206,191,193)")
@@ -155,8 +160,10 @@ std::vector<recipe> chosen(const options& o) {
 int main(int argc, char** argv) try {
     const options o = parse(argc, argv);
     cv::setNumThreads(1);
+    const std::vector<recipe> recipes = chosen(o);
+    if (recipes.empty() && o.own.empty()) throw in::invalid_input("--recipes none: needs --try or --own");
     experiment e(o);
-    for (const recipe& r : chosen(o)) e.learn_from(r);
+    for (const recipe& r : recipes) e.learn_from(r);
     if (!o.own.empty()) e.learn_from_simulator();
 
     const std::string report = markdown(e.outcomes(), e.tested());

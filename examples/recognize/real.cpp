@@ -65,6 +65,7 @@ int main(int argc, char** argv) try {
         for (const bool generated : {false, true})
             if (count > 0 ? !generated || !o.generated.empty() : generated && !o.generated.empty())
                 wanted.emplace_back(count, generated);
+    if (wanted.empty()) throw insonify::io_error("--counts 0: without --generated, nothing is left to train with");
     std::vector<lesson> lessons(wanted.size());
     insonify::thread_pool pool(o.threads);
     pool.bulk(wanted.size(), [&](std::size_t i) {

@@ -61,7 +61,10 @@ inline generator::options options_of(const recipe& r, std::size_t kind, const st
     }
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
-    return generator::parse(static_cast<int>(pointers.size()), pointers.data());
+    generator::options o = generator::parse(static_cast<int>(pointers.size()), pointers.data());
+    if (o.colormap != "gray")
+        throw in::invalid_input("--try: --colormap " + o.colormap + " has no gray values to recognise by");
+    return o;
 }
 
 /// Draws sets by one recipe.

@@ -27,21 +27,22 @@ inline options parse(int argc, char** argv) {
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     app.add_option("--out", o.out, "Folder; made if need be")->required();
     app.add_option("--waypoints", o.waypoints, "File of lines x,y in metres; otherwise legs to and fro");
-    app.add_option("--length", o.length, "Of a leg, metres (60)")->check(CLI::Range(1.0, 1e6));
-    app.add_option("--width", o.width, "Of the surveyed area, metres (80)")->check(CLI::Range(0.0, 1e6));
-    app.add_option("--between", o.between, "From leg to leg, metres (40)")->check(CLI::Range(1.0, 1e6));
-    app.add_option("--speed", o.driving.speed, "Metres per second (1.5)")->check(CLI::Range(0.01, 100.0));
-    app.add_option("--ping-rate", o.driving.ping_rate, "Per second (15)")->check(CLI::Range(0.1, 1000.0));
-    app.add_option("--turn-rate", o.driving.turn_rate, "Degrees per second at most (6)")->check(CLI::Range(0.1, 360.0));
-    app.add_option("--altitude", o.driving.altitude, "Metres (6)")->check(CLI::Range(0.1, 1000.0));
+    app.add_option("--length", o.length, "Of a leg, metres (60)")->check(examples::number(1.0, 1e6));
+    app.add_option("--width", o.width, "Of the surveyed area, metres (80)")->check(examples::number(0.0, 1e6));
+    app.add_option("--between", o.between, "From leg to leg, metres (40)")->check(examples::number(1.0, 1e6));
+    app.add_option("--speed", o.driving.speed, "Metres per second (1.5)")->check(examples::number(0.01, 100.0));
+    app.add_option("--ping-rate", o.driving.ping_rate, "Per second (15)")->check(examples::number(0.1, 1000.0));
+    app.add_option("--turn-rate", o.driving.turn_rate, "Degrees per second at most (6)")
+        ->check(examples::number(0.1, 360.0));
+    app.add_option("--altitude", o.driving.altitude, "Metres (6)")->check(examples::number(0.1, 1000.0));
     app.add_option("--altitude-change", o.driving.altitude_change, "Slow rise and fall, metres (1.5)")
         ->check(examples::number(0, 1000));
     app.add_option("--heave", o.driving.heave, "Rise and fall with the swell, metres (0.15)")
         ->check(examples::number(0, 100));
-    app.add_option("--range", o.range, "Of each side, metres (30)")->check(CLI::Range(1.0, 1e4));
+    app.add_option("--range", o.range, "Of each side, metres (30)")->check(examples::number(1.0, 1e4));
     app.add_option("--bins", o.bins, "Of each side (1024)")->check(CLI::Range(8, 65536));
-    app.add_option("--beam", o.beam, "Width along the track, degrees (0.3)")->check(CLI::Range(1e-3, 20.0));
-    app.add_option("--targets", o.targets, "How many, per square of 10 m (0.5)")->check(CLI::Range(0.0, 1.0));
+    app.add_option("--beam", o.beam, "Width along the track, degrees (0.3)")->check(examples::number(1e-3, 20.0));
+    app.add_option("--targets", o.targets, "How many, per square of 10 m (0.5)")->check(examples::number(0.0, 1.0));
     app.add_option("--bottom", o.bottom, "ripples+mud, ripples+sand, sand+rock or mud+rock (ripples+mud)")
         ->check(CLI::IsMember({"ripples+mud", "ripples+sand", "sand+rock", "mud+rock"}));
     app.add_option("--page", o.page, "Rows of a page (1024)")->check(CLI::Range(16, 16384));
@@ -51,6 +52,9 @@ inline options parse(int argc, char** argv) {
         ->check(examples::whole_number(0, 1024));
     try {
         app.parse(argc, argv);
+        if (o.driving.altitude_change + o.driving.heave >= o.driving.altitude)
+            throw CLI::ValidationError("--altitude", CLI::detail::to_string(o.driving.altitude) +
+                                                         " m is no more than --altitude-change and --heave take away");
     } catch (const CLI::ParseError& error) {
         examples::exit_after(app, error);
     }

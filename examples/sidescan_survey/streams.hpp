@@ -5,6 +5,7 @@
 #include <insonify/io/png.hpp>
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 
 namespace survey {
@@ -81,7 +82,13 @@ std::string format(const char* pattern, Values... values) {
 /// Collects rows into pages of fixed height, written as gray and copper PNGs.
 class pages {
   public:
-    pages(const std::string& folder, int width, int height) : folder_(folder), page_(width, height) {}
+    /// Removes the pages of an earlier survey, which may have had more.
+    pages(const std::string& folder, int width, int height) : folder_(folder), page_(width, height) {
+        std::vector<std::filesystem::path> earlier;
+        for (const auto& entry : std::filesystem::directory_iterator(folder))
+            if (entry.path().filename().string().starts_with("page_")) earlier.push_back(entry.path());
+        for (const std::filesystem::path& page : earlier) std::filesystem::remove(page);
+    }
 
     void row(std::span<const std::uint8_t> pixels) {
         std::copy(pixels.begin(), pixels.end(), page_.row(used_).begin());

@@ -132,6 +132,21 @@ class Survey(unittest.TestCase):
         self.assertIn("does not exist", run(*out, "--waypoints", self.folder / "nowhere", expect=1))
         self.assertIn("a folder, pipe or device", run(*out, "--waypoints", "/dev/zero", expect=1))
         self.assertIn("lava", run(*out, "--bottom", "lava", expect=2))
+        for option in "--width", "--speed", "--ping-rate", "--length", "--beam", "--turn-rate", "--targets":
+            self.assertIn("'nan' is not a number", run(*out, option, "nan", expect=2, seconds=20))
+        self.assertIn("--altitude: 1 m", run(*out, "--altitude", 1, expect=2))
+
+    def test_steps_longer_than_the_turning_circle_reach_the_end(self):
+        run("--out", self.folder, *SMALL, "--length", 63, "--width", 0, "--speed", 2, "--ping-rate", 0.2, "--turn-rate",
+            90, seconds=60)
+        track = list(csv.DictReader((self.folder / "navigation.csv").read_text().splitlines()))
+        self.assertLess(abs(float(track[-1]["y_m"]) - 63), 10)
+
+    def test_a_shorter_survey_leaves_no_page_of_a_longer_one(self):
+        run("--out", self.folder, *SMALL, "--page", 32)
+        run("--out", self.folder, *SMALL, "--page", 64)
+        pings = len((self.folder / "navigation.csv").read_text().splitlines()) - 1
+        self.assertEqual(len(list((self.folder / "pages").glob("page_????.png"))), -(-pings // 64))
 
 
 if __name__ == "__main__":

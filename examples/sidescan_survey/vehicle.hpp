@@ -121,7 +121,8 @@ class vehicle {
         const glm::dvec2 to = points_[next_] - place_;
         const auto [sine, cosine] = in::numeric::sin_cos(yaw_);
         const double distance = in::numeric::square_root(to.x * to.x + to.y * to.y);
-        const double circle = 2 * handling_.speed / in::numeric::to_radians(handling_.turn_rate);
+        // A step from ping to ping may be longer than the turning circle.
+        const double circle = (std::max)(2 * handling_.speed / in::numeric::to_radians(handling_.turn_rate), spacing());
         return distance < handling_.arrival || (distance < circle && -to.x * sine + to.y * cosine < 0);
     }
 

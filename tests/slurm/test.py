@@ -228,15 +228,20 @@ class Submission(unittest.TestCase):
         return subprocess.run([ROOT / "tools" / "slurm", *map(str, words)], env=environment, capture_output=True,
                               text=True, cwd=self.folder)
 
-    def test_names_with_blanks_are_quoted(self):
-        self.assertEqual(self.submit(8, "--time=1", "--", "--out", "my set", "--count=9").stdout, "array 17 merge 17\n")
+    def test_sh_reads_the_submitted_words_as_they_were_given(self):
+        # sbatch hands the text of --wrap to sh.
+        out = "it's my s\u00e9t\t$HOME"
+        self.assertEqual(self.submit(8, "--time=1", "--", "--out", out, "--count=9").stdout, "array 17 merge 17\n")
         first, second = (self.folder / "submitted").read_text().split("\n\n")[:2]
         self.assertIn("--array=0-7", first)
         self.assertIn("--time=1", first)
-        self.assertIn(rf"/opt/my\ programs/generate_dataset", first)
-        self.assertIn(rf"--out {self.folder}/my\ set --shard 8", first)
         self.assertIn("--dependency=afterok:17", second)
-        self.assertIn(rf"/opt/my\ programs/merge_dataset {self.folder}/my\ set", second)
+        for submitted, expected in (first, ["/opt/my programs/generate_dataset", "--threads", "1", "--count=9", "--out",
+                                            f"{self.folder}/{out}", "--shard", "8"]), \
+                                   (second, ["/opt/my programs/merge_dataset", f"{self.folder}/{out}"]):
+            text = submitted.split("--wrap\nexec")[1]
+            words = subprocess.run(["sh", "-c", r'printf "%s\n"' + text], capture_output=True, text=True, check=True).stdout
+            self.assertEqual(words.splitlines(), expected)
 
     def test_invalid_arguments_are_refused_before_submitting(self):
         for reason, words in {"is not a number of shards": [0, "--", "--out", "a"], "-- and options of generate_dataset are missing": [3, "--out", "a"],

@@ -1,0 +1,27 @@
+// Declarations of GDAL that examples/import_geotiff.cpp uses, so that it compiles where GDAL is not installed.
+#pragma once
+
+#include <string>  // as GDAL's own header does
+
+enum GDALAccess { GA_ReadOnly };
+enum GDALRWFlag { GF_Read };
+enum GDALDataType { GDT_Float32 };
+enum CPLErr { CE_None };
+
+class GDALRasterBand {
+  public:
+    int GetXSize() const;
+    int GetYSize() const;
+    double GetNoDataValue(int* exists);
+    CPLErr RasterIO(GDALRWFlag, int x, int y, int width, int height, void* into, int columns, int rows, GDALDataType,
+                    long long pixel_stride, long long row_stride);
+};
+class GDALDataset {
+  public:
+    int GetRasterCount();
+    GDALRasterBand* GetRasterBand(int number);
+    CPLErr GetGeoTransform(double* transform);
+};
+void GDALAllRegister();
+void* GDALOpen(const char* path, GDALAccess);
+void GDALClose(void* dataset);
