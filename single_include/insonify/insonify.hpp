@@ -7382,14 +7382,16 @@ inline std::string read_file(const std::string& path) {
 /// process's default mode and owner, and other hard links keep the old content.
 ///
 /// The temporary name is the path with the first free suffix of .tmp0, .tmp1, ..., so that concurrent writers of one
-/// path do not collide; the last to commit wins.
+/// path do not collide; the last to commit wins. Names of more than 240 bytes are cut, as many file systems hold 255.
 class replacement_file {
   public:
     /// @throws io_error if no file can be created in the folder of `path`, or `path` is a device, a pipe or a folder
     explicit replacement_file(std::string path) : path_(std::move(path)) {
         if (detail::is_special(path_)) detail::raise_io(path_, "can't open for writing: not a regular file");
+        const std::size_t separator = path_.find_last_of("/\\") + 1;  // 0 without a folder
+        const std::string shortened = path_.substr(0, separator + 240);
         for (int number = 0; file_.get() == nullptr; ++number) {
-            temporary_ = path_ + ".tmp" + detail::to_text(number);
+            temporary_ = shortened + ".tmp" + detail::to_text(number);
             errno = 0;
             file_ = detail::file_handle(temporary_, "wbx");  // x: only if there is no such file
             if (file_.get() == nullptr && (errno != EEXIST || number == 9999))
@@ -20671,7 +20673,7 @@ inline namespace INSONIFY_ABI {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The convex hull, counter-clockwise and without corners on straight edges, of the positions that are less than
+/// The convex hull, counter-clockwise and without corners on straight edges, of the finite positions that are less than
 /// `height` above the lowest one, seen from above. Fewer than three corners if those lie on a line.
 /// @param height  metres, >= 0: masts and wings that stick out higher do not count
 /// @throws invalid_input for a pose that `to_world` refuses, or a height that is negative or NaN
@@ -20681,8 +20683,10 @@ inline std::vector<glm::dvec2> footprint(const mesh_view& m, const pose& placeme
     double lowest = std::numeric_limits<double>::infinity();
     std::vector<glm::dvec3> points;
     for (const glm::vec3& p : m.positions) {
-        points.push_back(transform_point(map, glm::dvec3(p)));
-        lowest = (std::min)(lowest, points.back().z);
+        const glm::dvec3 at = transform_point(map, glm::dvec3(p));
+        if (!(numeric::is_finite(at.x) && numeric::is_finite(at.y) && numeric::is_finite(at.z))) continue;
+        points.push_back(at);
+        lowest = (std::min)(lowest, at.z);
     }
     std::vector<glm::dvec2> flat;
     for (const glm::dvec3& p : points)
@@ -24760,6 +24764,9 @@ class bottom_profile {
     /// Heights; lowest() > highest() if there is no bottom.
     double lowest() const { return lowest_; }
     double highest() const { return highest_; }
+    bool has_gaps() const {
+        return std::any_of(points_.begin(), points_.end(), [](const bottom_point& p) { return p.down != p.down; });
+    }
 
   private:
     const bottom_tiles& tiles_;
@@ -25585,6 +25592,8 @@ class ping_tracer {
         if (skips_foreground(relief_, axis_.first, p)) lowest = relief_.lowest, highest = relief_.highest;
         if (!(lowest <= highest))  // no seabed here: rays for the targets alone
             lowest = highest = (std::min)(foot_, altitude - range_ / 16);
+        // Targets below the seabed may be in the window closer to nadir than the seabed is.
+        if (axis_.first > 0 && foot_ < lowest && profile_.has_gaps()) lowest = foot_;
         // In a pitched fan depths are longer; level ones bound the heights above.
         const double stretch = 1 / p.cosine_pitch();
         const fan_shape shape =

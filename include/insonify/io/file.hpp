@@ -91,14 +91,16 @@ inline std::string read_file(const std::string& path) {
 /// process's default mode and owner, and other hard links keep the old content.
 ///
 /// The temporary name is the path with the first free suffix of .tmp0, .tmp1, ..., so that concurrent writers of one
-/// path do not collide; the last to commit wins.
+/// path do not collide; the last to commit wins. Names of more than 240 bytes are cut, as many file systems hold 255.
 class replacement_file {
   public:
     /// @throws io_error if no file can be created in the folder of `path`, or `path` is a device, a pipe or a folder
     explicit replacement_file(std::string path) : path_(std::move(path)) {
         if (detail::is_special(path_)) detail::raise_io(path_, "can't open for writing: not a regular file");
+        const std::size_t separator = path_.find_last_of("/\\") + 1;  // 0 without a folder
+        const std::string shortened = path_.substr(0, separator + 240);
         for (int number = 0; file_.get() == nullptr; ++number) {
-            temporary_ = path_ + ".tmp" + detail::to_text(number);
+            temporary_ = shortened + ".tmp" + detail::to_text(number);
             errno = 0;
             file_ = detail::file_handle(temporary_, "wbx");  // x: only if there is no such file
             if (file_.get() == nullptr && (errno != EEXIST || number == 9999))

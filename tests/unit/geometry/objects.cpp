@@ -16,6 +16,7 @@
 #include <insonify/geometry/topology.hpp>
 
 #include <cmath>
+#include <limits>
 
 #include "../../catch.hpp"
 #include "../../not_finite.hpp"
@@ -570,4 +571,13 @@ TEST_CASE("footprint() is the convex outline of the lowest vertices") {
     CHECK(in::footprint(to_mesh(in::truncated_cone{.lugs = 0}), {}, 0).size() == 64);
     CHECK(in::footprint({}, {}, 1).empty());
     CHECK_THROWS_AS(in::footprint(box, {}, -1), in::invalid_input);
+    // Vertices that are not finite do not count.
+    in::mesh torn = box;
+    for (const float value : {std::numeric_limits<float>::infinity(), std::nanf("")})
+        for (const float sign : {1.0f, -1.0f})
+            for (int axis = 0; axis < 3; ++axis) {
+                torn.positions.push_back(box.positions[0]);
+                torn.positions.back()[axis] = sign * value;
+            }
+    CHECK(in::footprint(torn, {.position = {10, 5, 3}}, 0.1f) == corners);
 }

@@ -161,6 +161,13 @@ TEST_CASE("Concurrent writers of one path do not mix their bytes") {
     CHECK(folder.names() == std::set<std::string>{"shared"});
 }
 
+TEST_CASE("write_file() takes names of 255 bytes") {
+    const scratch_folder scratch;
+    const std::string path = scratch / std::string(255, 'n').c_str();
+    in::write_file(path, "text");
+    CHECK(in::read_file(path) == "text");
+}
+
 TEST_CASE("A temporary name in use is skipped") {
     const scratch_folder folder;
     in::write_file(folder / "image.pgm.tmp0", "left by a crash");

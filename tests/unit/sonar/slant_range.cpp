@@ -531,6 +531,27 @@ TEST_CASE("Gaps in the seabed return nothing, and do not occlude") {
     CHECK(heard.image(static_cast<int>(rg::slant_range(6.5, 2) / rig.bin()), 0) > 0);
 }
 
+TEST_CASE("A target below the seabed, seen through a gap, returns the same in a window of ranges") {
+    in::seabed::heightfield holed{.heights = in::image<float>(121, 121, 0.0f), .origin = {-15, -15}, .spacing = 0.25};
+    for (int j = 0; j < 121; ++j)
+        for (int i = 68; i < 100; ++i) holed.heights(i, j) = std::nanf("");  // x from 2 to 10
+    in::scene s;
+    s.seabed = holed;
+    s.add(in::cube{}, {.position = {2.5, 0, -2.5}, .yaw = 0.3f}, "cube");
+    in::side_scan rig{.altitude = 5, .pings = 1, .range = 16, .bins = 320};
+    const auto whole = in::render(s, rig);
+    rig.first_range = 7;
+    rig.bins = 180;
+    const auto part = in::render(s, rig);
+    double sum = 0, of_whole = 0;
+    for (int b = 0; b < 180; ++b)
+        if (part.labels.instance(b, 0) == 1 || whole.labels.instance(140 + b, 0) == 1)
+            sum += static_cast<double>(part.image(b, 0)), of_whole += static_cast<double>(whole.image(140 + b, 0));
+    CHECK(of_whole > 0);
+    CHECK(sum == Approx(of_whole).epsilon(0.02));
+    CHECK(part.labels.targets[0].box.width() == whole.labels.targets[0].box.width());
+}
+
 TEST_CASE("Seabed in front of its edge returns what it does without one, level and pitched, in any window") {
     const auto bins_of = [](const in::seabed::any& bottom, double altitude, double pitch, float first_range) {
         in::scene s;

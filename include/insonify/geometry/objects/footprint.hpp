@@ -4,6 +4,7 @@
 // Letters 9(5), 1979.
 #pragma once
 
+#include <insonify/core/numeric.hpp>
 #include <insonify/geometry/mesh.hpp>
 #include <insonify/geometry/transform.hpp>
 
@@ -20,7 +21,7 @@ inline namespace INSONIFY_ABI {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The convex hull, counter-clockwise and without corners on straight edges, of the positions that are less than
+/// The convex hull, counter-clockwise and without corners on straight edges, of the finite positions that are less than
 /// `height` above the lowest one, seen from above. Fewer than three corners if those lie on a line.
 /// @param height  metres, >= 0: masts and wings that stick out higher do not count
 /// @throws invalid_input for a pose that `to_world` refuses, or a height that is negative or NaN
@@ -30,8 +31,10 @@ inline std::vector<glm::dvec2> footprint(const mesh_view& m, const pose& placeme
     double lowest = std::numeric_limits<double>::infinity();
     std::vector<glm::dvec3> points;
     for (const glm::vec3& p : m.positions) {
-        points.push_back(transform_point(map, glm::dvec3(p)));
-        lowest = (std::min)(lowest, points.back().z);
+        const glm::dvec3 at = transform_point(map, glm::dvec3(p));
+        if (!(numeric::is_finite(at.x) && numeric::is_finite(at.y) && numeric::is_finite(at.z))) continue;
+        points.push_back(at);
+        lowest = (std::min)(lowest, at.z);
     }
     std::vector<glm::dvec2> flat;
     for (const glm::dvec3& p : points)

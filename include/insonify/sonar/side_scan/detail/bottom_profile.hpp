@@ -70,6 +70,9 @@ class bottom_profile {
     /// Heights; lowest() > highest() if there is no bottom.
     double lowest() const { return lowest_; }
     double highest() const { return highest_; }
+    bool has_gaps() const {
+        return std::any_of(points_.begin(), points_.end(), [](const bottom_point& p) { return p.down != p.down; });
+    }
 
   private:
     const bottom_tiles& tiles_;

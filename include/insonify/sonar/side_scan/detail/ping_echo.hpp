@@ -57,6 +57,8 @@ class ping_tracer {
         if (skips_foreground(relief_, axis_.first, p)) lowest = relief_.lowest, highest = relief_.highest;
         if (!(lowest <= highest))  // no seabed here: rays for the targets alone
             lowest = highest = (std::min)(foot_, altitude - range_ / 16);
+        // Targets below the seabed may be in the window closer to nadir than the seabed is.
+        if (axis_.first > 0 && foot_ < lowest && profile_.has_gaps()) lowest = foot_;
         // In a pitched fan depths are longer; level ones bound the heights above.
         const double stretch = 1 / p.cosine_pitch();
         const fan_shape shape =
