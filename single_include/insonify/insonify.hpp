@@ -18315,9 +18315,8 @@ namespace detail::inline INSONIFY_FLAGS {
 template <class Shadow, class Labels, class Law, depth_precision Depth>
 class overhead_painter {
   public:
-    template <executor E>
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
-                     E& ex)
+                     executor_ref ex)
         : scene_(s), materials_(checked_materials(s, options)), view_(rig), options_(options), bottom_(memory_of(ex)) {
         out_.rows.step = 0;
         // The first draw clears it.
@@ -18325,26 +18324,26 @@ class overhead_painter {
         require_not_negative("reach", options.reach);
         check(draw_options_of(depth_load::clear), out_.image.view());  // tiles are counted before the first draw
         if constexpr (labelled) out_.labels = labels(s, rig.size.x, rig.size.y, ex);
-        for (const target& t : s.targets)
-            targets_.push_back(
-                {t.shape, t.shape.box(), view_.rig_from(to_world(t.placement)), t.shape.kind(), t.shape.grid()});
-        if (has_bottom()) sample_seabed(ex);
+        if (has_bottom()) add_seabed(ex);
+        for (std::size_t i = 0; i < s.targets.size(); ++i) {
+            const target& t = s.targets[i];
+            add({t.shape, t.shape.box(), view_.rig_from(to_world(t.placement)), t.shape.kind(), t.shape.grid()}, i,
+                static_cast<std::uint16_t>(i + 1), labels::no_seabed, t.surface);
+        }
     }
 
-    template <executor E>
-    frame<Labels> paint(E& ex) {
-        place_objects();
+    frame<Labels> paint(executor_ref ex) {
         if constexpr (casts) {
             dynamic_array<shadow::caster> casters;
-            for (const placed_mesh& t : targets_) casters.push_back(as_caster(view_, t));
-            if (has_bottom()) casters.push_back(as_caster(view_, bottom_in_rig_));
+            for (const surface& t : targets()) casters.push_back(as_caster(view_, t.placed));
+            if (has_bottom()) casters.push_back(as_caster(view_, surfaces_.front().placed));
             const shadow::point_bounds bounds{receivers(), view_.ground_sampling(), options_.level};
             const auto occlusion =
                 options_.shadow.build(std::span<const shadow::caster>(casters), view_.light_source(), bounds, ex);
             const auto known = decide_triangles(occlusion, ex);
             draw_all(ex);
-            shadow_pass<Labels>(view_, surfaces_, {undecided_, out_.image, out_.labels}, targets_.size(), options_.tile,
-                                options_.level)
+            shadow_pass<Labels>(view_, surfaces_, {undecided_, out_.image, out_.labels}, targets().size(),
+                                options_.tile, options_.level)
                 .cast(occlusion, ex);
         } else {
             draw_all(ex);
@@ -18357,9 +18356,7 @@ class overhead_painter {
     }
 
     /// The visibility buffer alone.
-    template <executor E>
-    visibility see(E& ex) {
-        place_objects();
+    visibility see(executor_ref ex) {
         draw_all(ex);
         visibility shown{image<std::uint16_t>(ids_.width(), ids_.height(), labels::no_instance), std::move(ids_)};
         for (std::size_t i = 0; i < shown.triangle.size(); ++i) {
@@ -18377,10 +18374,31 @@ class overhead_painter {
     static constexpr bool casts = !std::is_same_v<Shadow, shadow::none>;
 
     bool has_bottom() const { return !scene_.seabed.empty(); }
+    std::span<const surface> targets() const {
+        return {surfaces_.data() + (has_bottom() ? 1 : 0), scene_.targets.size()};
+    }
+
+    /// @param caster  targets are numbered from 0 on, the seabed follows
+    void add(const placed_mesh& placed, std::size_t caster, std::uint16_t instance, std::uint8_t seabed,
+             const material& m) {
+        const std::uint64_t first = surfaces_.empty() ? 0
+                                                      : std::uint64_t{surfaces_.back().first_id} +
+                                                            surfaces_.back().placed.shape.triangles.size();
+        const std::uint64_t end = first + placed.shape.triangles.size();
+        require(end < shadow::invalid_id, "triangles of the scene", end, "below 2^32 - 1");
+        surfaces_.push_back({});
+        surface& s = surfaces_.back();
+        s.placed = placed;
+        s.first_id = static_cast<std::uint32_t>(first);
+        s.caster = static_cast<std::uint32_t>(caster);
+        s.instance = instance;
+        s.seabed = seabed;
+        s.self_shadow_label = labels::of_caster(s.caster, scene_.targets.size());
+        s.whole = m;
+    }
 
     /// Samples the ground in view, and towards the light as far as its relief can cast a shadow into view.
-    template <executor E>
-    void sample_seabed(E& ex) {
+    void add_seabed(executor_ref ex) {
         const overhead& rig = view_.rig();
         seabed::detail::require_position("overhead.position", rig.position);
         const int longer = (std::max)(rig.size.x, rig.size.y);
@@ -18394,11 +18412,16 @@ class overhead_painter {
             ground = casting_ground(ground, range, view_.world_light(), shadow::radius_of(options_.shadow),
                                     static_cast<double>(options_.reach) * longer_side(view_));
         bottom_.sample(scene_.seabed, rig.position, ground, spacing, ex);
-        const image<float>& heights = bottom_.field().heights;
-        out_.stats.seabed_samples = heights.size();
+        const seabed::heightfield& field = bottom_.field();
+        out_.stats.seabed_samples = field.heights.size();
         out_.stats.cell = spacing;
-        out_.stats.seabed_columns = heights.width();
-        out_.stats.seabed_rows = heights.height();
+        out_.stats.seabed_columns = field.heights.width();
+        out_.stats.seabed_rows = field.heights.height();
+        add(bottom_.placed_under(view_), scene_.targets.size(), labels::no_instance,
+            static_cast<std::uint8_t>(field.fallback), materials_[seabed::index_of(field.fallback)]);
+        if (field.types.empty()) return;
+        surfaces_.back().types = field.types.pixels().data();
+        surfaces_.back().materials = materials_.data();
     }
 
     /// A box around everything that the picture may show.
@@ -18408,9 +18431,9 @@ class overhead_painter {
             low = (std::numeric_limits<double>::max)();
             top = -low;
         }
-        for (const placed_mesh& t : targets_)
-            for (int corner = 0; corner < 8 && !t.box.empty(); ++corner) {
-                const double z = transform_point(t.to_rig, t.box.corner(corner)).z;
+        for (const surface& t : targets())
+            for (int corner = 0; corner < 8 && !t.placed.box.empty(); ++corner) {
+                const double z = transform_point(t.placed.to_rig, t.placed.box.corner(corner)).z;
                 top = (std::max)(top, z);
                 if (bottom_.is_open()) low = (std::min)(low, z);
             }
@@ -18419,41 +18442,9 @@ class overhead_painter {
         return {{-half, low}, {half, top}};
     }
 
-    /// Lists the bottom and the targets, in the order in which they are drawn and their ids assigned.
-    void place_objects() {
-        std::uint64_t ids = 0;
-        const auto add = [&](const placed_mesh& placed, std::uint32_t caster, std::uint16_t instance,
-                             std::uint8_t seabed, const material& m) {
-            surfaces_.push_back({});
-            surface& s = surfaces_.back();
-            s.placed = placed;
-            s.first_id = static_cast<std::uint32_t>(ids);
-            s.caster = caster;
-            s.instance = instance;
-            s.seabed = seabed;
-            s.self_shadow_label = labels::of_caster(caster, targets_.size());
-            s.whole = m;
-            ids += placed.shape.triangles.size();
-            require(ids < shadow::invalid_id, "triangles of the scene", ids, "below 2^32 - 1");
-        };
-        if (has_bottom()) {
-            bottom_in_rig_ = bottom_.placed_under(view_);
-            const seabed::heightfield& field = bottom_.field();
-            add(bottom_in_rig_, static_cast<std::uint32_t>(targets_.size()), labels::no_instance,
-                static_cast<std::uint8_t>(field.fallback), materials_[seabed::index_of(field.fallback)]);
-            if (!field.types.empty()) {
-                surfaces_.back().types = field.types.pixels().data();
-                surfaces_.back().materials = materials_.data();
-            }
-        }
-        for (std::size_t i = 0; i < targets_.size(); ++i)
-            add(targets_[i], static_cast<std::uint32_t>(i), static_cast<std::uint16_t>(i + 1), labels::no_seabed,
-                scene_.targets[i].surface);
-    }
-
     /// Decides whole triangles before they are drawn, lit or dark. The surfaces point to the results.
-    template <class Occlusion, executor E>
-    dynamic_array<uninitialized_array<shadow::decision>> decide_triangles(const Occlusion& occlusion, E& ex) {
+    template <class Occlusion>
+    dynamic_array<uninitialized_array<shadow::decision>> decide_triangles(const Occlusion& occlusion, executor_ref ex) {
         dynamic_array<uninitialized_array<shadow::decision>> known;
         if constexpr (shadow::triangle_occlusion<Occlusion>)
             for (surface& s : surfaces_) {
@@ -18474,8 +18465,7 @@ class overhead_painter {
     }
 
     /// Draws all surfaces: light where it is decided, and the visibility buffer.
-    template <executor E>
-    void draw_all(E& ex) {
+    void draw_all(executor_ref ex) {
         const overhead& rig = view_.rig();
         image<float> depth(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
         shaded_images into{out_.image};
@@ -18502,8 +18492,7 @@ class overhead_painter {
     }
 
     /// Labels instances and seabed types from the visibility buffer.
-    template <executor E>
-    void label_surfaces(E& ex) {
+    void label_surfaces(executor_ref ex) {
         if (surfaces_.empty()) return;
         ex.bulk(static_cast<std::size_t>(ids_.height()), [&](std::size_t row) {
             const int y = static_cast<int>(row);
@@ -18526,9 +18515,7 @@ class overhead_painter {
     undecided_light undecided_;
     frame<Labels> out_;
     sampled_bottom bottom_;
-    placed_mesh bottom_in_rig_;
-    dynamic_array<surface> surfaces_;
-    dynamic_array<placed_mesh> targets_;
+    dynamic_array<surface> surfaces_;  ///< the seabed, if there is one, and the targets, as they are drawn
 };
 
 template <class Shadow, class Labels, class Law, depth_precision Depth>
