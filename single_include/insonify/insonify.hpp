@@ -7117,6 +7117,8 @@ class shared_mesh {
         else
             return shared_mesh(to_mesh(shape));
     }
+    /// The same as the constructor.
+    INSONIFY_MEMBER static shared_mesh of(mesh m) { return shared_mesh(std::move(m)); }
 
     const mesh& operator*() const { return facts_->shape; }
     const mesh* operator->() const { return &facts_->shape; }
