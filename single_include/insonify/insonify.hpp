@@ -7776,7 +7776,7 @@ struct draw_options {
 };
 
 /// What happened to the triangles of a draw. Each of `triangles` is counted once among drawn, culled, missed,
-/// degenerate and not_finite; one that lies outside of the picture and needs no clipping is always counted as missed.
+/// degenerate and not_finite; one beyond a side of the picture is always counted as missed.
 struct draw_stats {
     std::uint64_t triangles = 0;   ///< submitted
     std::uint64_t drawn = 0;       ///< filled into tiles
@@ -12367,6 +12367,16 @@ class screen_polygon {
     /// 1 for clockwise on the screen, -1 for counter-clockwise, 0 for no area.
     int area_sign() const { return area_sign_; }
 
+    /// The pixels of an image whose centres lie in the polygon's bounding box.
+    rect pixels(const pixel_grid& grid) const {
+        screen_vertex low = at(0), high = at(0);
+        for (int i = 1; i < count_; ++i) {
+            low.x = (std::min)(low.x, at(i).x), low.y = (std::min)(low.y, at(i).y);
+            high.x = (std::max)(high.x, at(i).x), high.y = (std::max)(high.y, at(i).y);
+        }
+        return center_rect(low, high, high, grid);
+    }
+
     /// Calls `part(corners, pixels, is_run)` for disjoint parts of the polygon: triangles of three of its corners; or,
     /// if it is folded, runs of covered pixels in the plane of three of its corners.
     template <class Part>
@@ -12383,13 +12393,7 @@ class screen_polygon {
     template <class Part>
     void for_each_run(const pixel_grid& grid, const Part& part) const {
         const std::array<int, 3> plane{0, largest_part_, largest_part_ + 1};
-        rect all{grid.width, grid.height, 0, 0};
-        for (int i = 1; i + 1 < count_; ++i) {
-            const rect r = center_rect(at(0), at(i), at(i + 1), grid);
-            if (r.empty()) continue;
-            all = {(std::min)(all.x0, r.x0), (std::min)(all.y0, r.y0), (std::max)(all.x1, r.x1),
-                   (std::max)(all.y1, r.y1)};
-        }
+        const rect all = pixels(grid);
         for (int y = all.y0; y < all.y1; ++y) {
             const auto [begin, end] = crossed(y, all.x0, all.x1, grid);
             for (int x = begin; x < end; ++x) {
@@ -13270,6 +13274,7 @@ class screen_mesh {
         if (polygon.count < 3) return outcome::missed;
 
         const screen_polygon on_screen(polygon, projection_);
+        if (is_outside(on_screen.pixels(grid_), grid_)) return outcome::missed;
         if (on_screen.area_sign() == 0) return outcome::degenerate;
         if (is_culled(on_screen.area_sign() < 0)) return outcome::culled;
         outcome result = outcome::missed;

@@ -52,7 +52,7 @@ struct draw_options {
 };
 
 /// What happened to the triangles of a draw. Each of `triangles` is counted once among drawn, culled, missed,
-/// degenerate and not_finite; one that lies outside of the picture and needs no clipping is always counted as missed.
+/// degenerate and not_finite; one beyond a side of the picture is always counted as missed.
 struct draw_stats {
     std::uint64_t triangles = 0;   ///< submitted
     std::uint64_t drawn = 0;       ///< filled into tiles

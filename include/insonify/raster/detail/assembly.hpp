@@ -172,6 +172,7 @@ class screen_mesh {
         if (polygon.count < 3) return outcome::missed;
 
         const screen_polygon on_screen(polygon, projection_);
+        if (is_outside(on_screen.pixels(grid_), grid_)) return outcome::missed;
         if (on_screen.area_sign() == 0) return outcome::degenerate;
         if (is_culled(on_screen.area_sign() < 0)) return outcome::culled;
         outcome result = outcome::missed;
