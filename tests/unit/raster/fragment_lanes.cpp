@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "../../catch.hpp"
 #include "pixel_space.hpp"
@@ -116,6 +117,49 @@ TEST_CASE(
     }
     CHECK(shaded > 8000);
     CHECK(worst < 1e-3);
+}
+
+namespace {
+/// The largest difference between the varyings of a shader over lanes and those of a fragment shader, for one triangle
+/// in pixel coordinates, whose corners' clip coordinates are multiplied by `scale`. Infinite where the former are NaN.
+template <in::depth_precision Depth>
+double worst_of_lanes(const glm::vec3 (&corners)[3], float scale) {
+    const in::mesh m{{std::begin(corners), std::end(corners)}, {}, {{0, 1, 2}}};
+    const auto scaled = [&](const in::vertex& v) {
+        return in::placed_vertex<varyings>{
+            testing_raster::pixel_space{256, 256}(v)*scale,
+            {{v.index == 0 ? 1.0f : 0.0f, v.index == 1 ? 1.0f : 0.0f, v.index == 2 ? 1.0f : 0.0f}, 0}};
+    };
+    const in::draw_options<Depth> options{.load = in::depth_load::clear};
+    in::image<float> depth(256, 256);
+    in::image<glm::vec3> weights(256, 256);
+    in::draw(
+        m, scaled, [&](const auto& f) { weights(f.x, f.y) = f.varyings.position; }, in::framebuffer<void>{depth},
+        options);
+    double worst = 0;
+    const auto compare = [&]<int N>(const in::fragment_lanes<N, varyings>& f) {
+        for (int i = 0; i < 3; ++i) {
+            typename in::fragment_lanes<N, varyings>::floats value;
+            f.interpolate(value, i);
+            for (int k = 0; k < N; ++k) {
+                if (in::detail::lane(f.visible, k) == 0) continue;
+                const double off = std::abs(static_cast<double>(in::detail::lane(value, k)) -
+                                            static_cast<double>(weights(f.x + k, f.y)[i]));
+                worst = (std::max)(worst, off >= 0 ? off : std::numeric_limits<double>::infinity());
+            }
+        }
+    };
+    CHECK(in::draw(m, scaled, compare, in::framebuffer<void>{depth}, options).pixels > 100);
+    return worst;
+}
+}  // namespace
+
+TEST_CASE("Varyings over lanes do not depend on the scale of clip coordinates") {
+    const glm::vec3 triangle[] = {{-90000, 300, 0}, {90000, 90000, 0.5}, {80000, -90000, 1}};
+    for (const int exponent : {-99, -84, -61, -60, 0, 60, 61, 100}) {
+        CHECK(worst_of_lanes<in::depth_precision::exact>(triangle, std::ldexp(1.0f, exponent)) < 1e-6);
+        CHECK(worst_of_lanes<in::depth_precision::quick>(triangle, std::ldexp(1.0f, exponent)) < 1e-6);
+    }
 }
 
 TEST_CASE("A shader over lanes gives the same bytes for any instruction set, tile size and thread count") {

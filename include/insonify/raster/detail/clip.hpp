@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -80,7 +79,8 @@ class projection {
                 sign_ * over_w.z, inverse_w};
     }
 
-    /// The same for N positions, by axis. Vertices that are not compact (or NaN) are marked as off the grid.
+    /// The same for N positions, by axis. Vertices that are not compact (or NaN) are marked as off the grid, and so are
+    /// those whose 1 / w, times an area of up to 2^61, may leave the range of a float: see lane_shading_kernel.
     template <int N>
     INSONIFY_INLINE void to_screen(const lanes<double, N> (&p)[4], lanes<std::int64_t, N>& x, lanes<std::int64_t, N>& y,
                                    lanes<double, N>& z, lanes<double, N>& inverse_w) const {
@@ -88,9 +88,8 @@ class projection {
         using masks = lanes<std::int64_t, N>;
         const doubles& w = p[3];
         const doubles size_x = p[0] < 0.0 ? 0.0 - p[0] : p[0], size_y = p[1] < 0.0 ? 0.0 - p[1] : p[1];
-        const masks compact = masks(w >= smallest_w) & masks(p[2] >= 0.0) & masks(p[2] <= w) &
-                              masks(size_x <= compact_x_ * w) & masks(size_y <= compact_y_ * w) &
-                              masks(w <= static_cast<double>((std::numeric_limits<float>::max)()));
+        const masks compact = masks(w >= 0x1p-60) & masks(w <= 0x1p60) & masks(p[2] >= 0.0) & masks(p[2] <= w) &
+                              masks(size_x <= compact_x_ * w) & masks(size_y <= compact_y_ * w);
         inverse_w = 1.0 / w;
         const auto over_w = [&](doubles& into, const doubles& value) INSONIFY_INLINE_LAMBDA {
             if (exact_)
