@@ -12510,6 +12510,14 @@ inline bool is_small(std::int64_t width, std::int64_t height) {
     return (width | height) < small_limit;
 }
 
+/// Whether a triangle that is not small is more than 2^12 times as long as wide. In float, weights have an error of
+/// 2^-24 of its length squared, which is no longer small beside its area; those of wide triangles are computed in
+/// double.
+/// @param area  twice the area
+inline bool is_sliver(std::int64_t width, std::int64_t height, std::int64_t area) {
+    return !is_small(width, height) && (width * width + height * height) >> 12 > numeric::abs(area);
+}
+
 /// The vertices of N triangles and their bounding boxes.
 template <int N>
 struct triangle_lanes {
@@ -13068,7 +13076,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A triangle with a vertex that isn't compact, or a piece of a clipped one.
+/// A triangle with a vertex that isn't compact, a sliver, or a piece of a clipped triangle.
 struct wide_triangle {
     std::array<screen_vertex, 3> corners;
     std::array<glm::dvec3, 3> weights;  ///< barycentric, of each corner in the mesh's triangle
@@ -13115,8 +13123,8 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/raster/detail/assembly.hpp -------------------------------------------------------
 // Primitive assembly: from a mesh to triangles on the screen, culled, clipped where needed, and binned.
 //
-// Almost all triangles are compact: 32-bit coordinates, 64-bit edge functions. The others are wide: vertices beyond the
-// compact grid, or pieces of clipped triangles. They take a slower path that is exact at any distance.
+// Almost all triangles are compact: 32-bit coordinates, 64-bit edge functions. The others are wide: slivers, vertices
+// beyond the compact grid, or pieces of clipped triangles. They take a slower path that is exact at any distance.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -13253,6 +13261,7 @@ class screen_mesh {
         if (pixels.empty()) return outcome::missed;
         const std::int64_t width = (std::max)({a.x, b.x, c.x}) - (std::min)({a.x, b.x, c.x});
         const std::int64_t height = (std::max)({a.y, b.y, c.y}) - (std::min)({a.y, b.y, c.y});
+        if (is_sliver(width, height, area)) return assemble_wide(shader, id, tiles, out);
         out.runs.add(id, 1, tiles.touched(pixels), is_small(width, height));
         return outcome::drawn;
     }

@@ -162,6 +162,18 @@ TEST_CASE("Varyings over lanes do not depend on the scale of clip coordinates") 
     }
 }
 
+TEST_CASE("Varyings over lanes stay precise on slivers of any length") {
+    for (const double length : {300.0, 3000.0, 30000.0, 900000.0})
+        for (const double width : {300.0, 1.0}) {
+            const glm::vec3 sliver[] = {{128 - 0.7 * length, 130 - 0.6 * length, 0},
+                                        {128 + 0.7 * length + width, 130 + 0.6 * length, 0},
+                                        {128 + 0.7 * length, 130 + 0.6 * length + width, 1}};
+            CAPTURE(length, width);
+            CHECK(worst_of_lanes<in::depth_precision::exact>(sliver, 1) < 5e-4);
+            CHECK(worst_of_lanes<in::depth_precision::quick>(sliver, 1) < 5e-4);
+        }
+}
+
 TEST_CASE("A shader over lanes gives the same bytes for any instruction set, tile size and thread count") {
     const in::mesh m = rubble();
     const auto same = [](const pictures& a, const pictures& b) {

@@ -1,7 +1,7 @@
 // Primitive assembly: from a mesh to triangles on the screen, culled, clipped where needed, and binned.
 //
-// Almost all triangles are compact: 32-bit coordinates, 64-bit edge functions. The others are wide: vertices beyond the
-// compact grid, or pieces of clipped triangles. They take a slower path that is exact at any distance.
+// Almost all triangles are compact: 32-bit coordinates, 64-bit edge functions. The others are wide: slivers, vertices
+// beyond the compact grid, or pieces of clipped triangles. They take a slower path that is exact at any distance.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
@@ -151,6 +151,7 @@ class screen_mesh {
         if (pixels.empty()) return outcome::missed;
         const std::int64_t width = (std::max)({a.x, b.x, c.x}) - (std::min)({a.x, b.x, c.x});
         const std::int64_t height = (std::max)({a.y, b.y, c.y}) - (std::min)({a.y, b.y, c.y});
+        if (is_sliver(width, height, area)) return assemble_wide(shader, id, tiles, out);
         out.runs.add(id, 1, tiles.touched(pixels), is_small(width, height));
         return outcome::drawn;
     }

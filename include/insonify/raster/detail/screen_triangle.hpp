@@ -14,7 +14,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A triangle with a vertex that isn't compact, or a piece of a clipped one.
+/// A triangle with a vertex that isn't compact, a sliver, or a piece of a clipped triangle.
 struct wide_triangle {
     std::array<screen_vertex, 3> corners;
     std::array<glm::dvec3, 3> weights;  ///< barycentric, of each corner in the mesh's triangle

@@ -59,6 +59,14 @@ inline bool is_small(std::int64_t width, std::int64_t height) {
     return (width | height) < small_limit;
 }
 
+/// Whether a triangle that is not small is more than 2^12 times as long as wide. In float, weights have an error of
+/// 2^-24 of its length squared, which is no longer small beside its area; those of wide triangles are computed in
+/// double.
+/// @param area  twice the area
+inline bool is_sliver(std::int64_t width, std::int64_t height, std::int64_t area) {
+    return !is_small(width, height) && (width * width + height * height) >> 12 > numeric::abs(area);
+}
+
 /// The vertices of N triangles and their bounding boxes.
 template <int N>
 struct triangle_lanes {
