@@ -13990,7 +13990,7 @@ class fragment_lanes {
     template <class Screen, class V, class Shader>
     friend struct detail::lane_shading_kernel;
 
-    static constexpr int varyings_size = (static_cast<int>(sizeof(Varyings) / sizeof(float)) + 3) / 4 * 4;
+    static constexpr int varyings_size = (static_cast<int>(sizeof(Varyings)) + 15) / 16 * 4;  ///< as varyings_record
     floats values_[3][static_cast<unsigned>(varyings_size)];  ///< varyings of the vertices
     const float* depth_;                                      ///< in the tile
     float depth_sign_;

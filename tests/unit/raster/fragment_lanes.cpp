@@ -187,6 +187,20 @@ TEST_CASE("A shader over lanes gives the same bytes for any instruction set, til
     CHECK(!(quick.depth == exact.depth));
 }
 
+TEST_CASE("Varyings over lanes may be empty") {
+    struct none {};
+    const auto place = [](const in::vertex& v) { return in::placed_vertex<none>{seen_from_above(v).clip, {}}; };
+    in::image<float> depth(150, 110), seen(150, 110, in::empty_depth(in::keep_depth::larger));
+    const auto store_depth = [&]<int N>(const in::fragment_lanes<N, none>& f) {
+        typename in::fragment_lanes<N, none>::floats value;
+        f.depth(value);
+        f.store(seen, value);
+    };
+    in::draw(rubble(), place, store_depth, in::framebuffer<void>{depth},
+             {.keep = in::keep_depth::larger, .load = in::depth_load::clear});
+    CHECK(seen == depth);
+}
+
 namespace {
 /// A user's vertex shader with a form over lanes.
 struct both_ways {
