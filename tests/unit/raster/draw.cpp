@@ -95,7 +95,8 @@ TEST_CASE("A depth-only draw writes the depth of a shaded one and takes no fragm
     CHECK(stats.pixels == 0);
 }
 
-TEST_CASE("Varyings equal the intersections of rays with the plane") {
+TEMPLATE_TEST_CASE_SIG("Varyings equal the intersections of rays with the plane", "",
+                       ((in::depth_precision Depth), Depth), in::depth_precision::exact, in::depth_precision::quick) {
     // One large tilted triangle, seen by the pinhole: the varying is the position itself.
     const in::mesh m{{{-9, -9, -1}, {9, -9, 1}, {0, 9, 0.5f}}, {}, {{0, 1, 2}}};
     const glm::dvec3 a(m.positions[0]), b(m.positions[1]), c(m.positions[2]);
@@ -114,7 +115,8 @@ TEST_CASE("Varyings equal the intersections of rays with the plane") {
             worst_depth = (std::max)(worst_depth, std::abs(static_cast<double>(f.depth) * (3 - hit.z) / 0.01 - 1));
             CHECK(f.weights.x + f.weights.y + f.weights.z == Approx(1));
         },
-        in::framebuffer<void>{depth}, {.keep = in::keep_depth::larger, .load = in::depth_load::clear});
+        in::framebuffer<void>{depth},
+        in::draw_options<Depth>{.keep = in::keep_depth::larger, .load = in::depth_load::clear});
     CHECK(stats.pixels > 5000);
     // Snapping moves a vertex by up to 2^-9 pixels of 2^-6 m x distance each.
     CHECK(worst < 3e-4);

@@ -42,7 +42,12 @@ struct screen_vertices {
 
     screen_vertex operator[](std::size_t i) const {
         const packed_vertex<Real>& v = packed[i];
-        return {v.position.x, v.position.y, static_cast<double>(v.depth), inverse_w.empty() ? 1 : inverse_w[i]};
+        double over_w = 1;
+        if constexpr (std::is_same_v<Real, float>)
+            over_w = static_cast<double>(v.inverse_w);
+        else if (!inverse_w.empty())
+            over_w = inverse_w[i];
+        return {v.position.x, v.position.y, static_cast<double>(v.depth), over_w};
     }
 };
 
