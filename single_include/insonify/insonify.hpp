@@ -12761,7 +12761,7 @@ template <class S>
 concept position_shader = requires(const S& shader, const vertex& v) {
     { shader(v) } -> std::convertible_to<glm::vec4>;
 };
-/// `shader(vertex)` returns a placed_vertex.
+/// `shader(vertex)` returns a placed_vertex, or a type of the caller's with the same members.
 template <class S>
 concept varying_shader = requires(const S& shader, const vertex& v) {
     { shader(v).clip } -> std::convertible_to<glm::vec4>;
@@ -12797,8 +12797,11 @@ struct shader_varyings<S> {
 inline glm::vec4 position_of(const glm::vec4& clip) {
     return clip;
 }
-template <class Varyings>
-INSONIFY_INLINE glm::vec4 position_of(const placed_vertex<Varyings>& placed) {
+template <class Placed>
+    requires requires(const Placed& placed) {
+        placed.clip;
+    }
+INSONIFY_INLINE glm::vec4 position_of(const Placed& placed) {
     return placed.clip;
 }
 

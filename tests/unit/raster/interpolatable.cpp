@@ -53,6 +53,19 @@ static_assert(!in::interpolatable<tail> && !in::interpolatable<rgba> && !in::int
 
 }  // namespace
 
+TEST_CASE("A vertex shader may return a type of its own that has a clip position and varyings") {
+    struct placed {
+        glm::vec4 clip;
+        float varyings;
+    };
+    const auto place = [](const in::vertex& v) { return placed{{v.position, 1}, v.position.x}; };
+    const in::mesh m{{{-1, -1, 0.5f}, {3, -1, 0.5f}, {-1, 3, 0.5f}}, {}, {{0, 1, 2}}};
+    in::image<float> color(8, 8), depth(8, 8);
+    in::draw(m, place, [](const in::fragment<float>& f) { return f.varyings; }, in::framebuffer<float>{color, depth},
+             {.load = in::depth_load::clear});
+    for (int x = 0; x < 8; ++x) CHECK(color(x, 3) == Approx((x + 0.5) / 4 - 1));
+}
+
 TEST_CASE("A draw that clears depth writes the background color where requested, and otherwise keeps the color") {
     const in::mesh m{.positions = {{-1, -1, 0.5f}, {0, -1, 0.5f}, {-1, 0, 0.5f}}, .triangles = {{0, 1, 2}}};
     const auto place = [](const in::vertex& v) { return glm::vec4(v.position, 1); };
