@@ -22727,7 +22727,7 @@ struct blend {
     any second = flat{};
     float coverage = 0.5f;  ///< in [0, 1]: fraction of the area that is `first`, over many patches
     float patch = 12.0f;    ///< metres, > 0: scale of the patches
-    float border = 0.6f;    ///< metres, in (0, patch]: typical width of borders, about a ripple or two
+    float border = 0.6f;    ///< metres, 0.001 to `patch`: typical width of borders, about a ripple or two
     std::uint64_t seed = 1;
 
     /// @throws invalid_input for parameters out of their range
@@ -22859,7 +22859,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-/// Scour by a current around a footprint, such as that of a target: `moat{.outline = footprint(mesh, pose, height)}`.
+/// Scour by a current around a footprint, such as that of a target: `moat{.outline = footprint(mesh, pose, height)}`
+/// (geometry/objects/footprint.hpp).
 /// Inside of the outline it ends at width / 2, so that the ground below the middle of a wide target keeps its height.
 /// Place targets first, by `rest_on` of the ground without the moat.
 struct moat {

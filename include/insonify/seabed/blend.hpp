@@ -16,7 +16,7 @@ struct blend {
     any second = flat{};
     float coverage = 0.5f;  ///< in [0, 1]: fraction of the area that is `first`, over many patches
     float patch = 12.0f;    ///< metres, > 0: scale of the patches
-    float border = 0.6f;    ///< metres, in (0, patch]: typical width of borders, about a ripple or two
+    float border = 0.6f;    ///< metres, 0.001 to `patch`: typical width of borders, about a ripple or two
     std::uint64_t seed = 1;
 
     /// @throws invalid_input for parameters out of their range
