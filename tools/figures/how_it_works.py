@@ -84,7 +84,7 @@ def stacked(upper, lower):
 def triangle():
     """Pixels whose centres a triangle covers."""
     corners = [(1.3, 6.4), (10.6, 4.9), (5.2, 0.7)]
-    p = Plot(560, 0, (0, 12), (0, 8), "x, pixels", "y, pixels", equal=True)
+    p = Plot(560, 0, (0, 12), (0, 8), "pixels", "pixels", equal=True)
 
     def inside(x, y):
         edges = [(corners[i], corners[(i + 1) % 3]) for i in range(3)]
@@ -102,7 +102,7 @@ def triangle():
     p.line(corners + corners[:1], HOT, 2)
     for x, y in corners:
         p.dot(x, y, 4, HOT)
-    p.text(1.3, 6.4, "corner, rounded to 1/256 pixel", "start", HOT, (4, -10))
+    p.text(1.3, 6.4, "corner, rounded to a fraction of a pixel", "start", HOT, (4, -10))
     p.ticks(range(0, 13, 2), range(0, 9, 2))
     return p.svg()
 
