@@ -59,7 +59,7 @@ inline void write_png_bytes(const std::string& path, const void* pixels, int wid
 inline namespace INSONIFY_FLAGS {
 
 /// Writes an 8-bit gray or colour PNG, all or nothing. Floats are quantized: 1 is white, to the nearest of 256 levels.
-/// For labels::instance, which has 16 bits, see io/netpbm.hpp, or map its values to 8. The library reads no PNG.
+/// The library reads no PNG.
 /// stb's own switches (`stbi_write_png_compression_level` and others) apply.
 /// @throws invalid_input for an image without pixels or above 2^29 bytes; io_error, naming the file, if it can't be
 ///         written
@@ -70,6 +70,8 @@ inline void write_png(const std::string& path, image_view<const std::uint8_t> so
 inline void write_png(const std::string& path, image_view<const rgb8> source) {
     detail::write_png_bytes(path, source.data(), source.width(), source.height(), 3, 3 * source.stride());
 }
+/// Labels and classes have 16 bits: `write_netpbm` of io/netpbm.hpp writes them.
+inline void write_png(const std::string& path, image_view<const std::uint16_t> source) = delete;
 /// The same for values in [0, 1], rounded to 8 bits.
 inline void write_png(const std::string& path, image_view<const float> source) {
     write_png(path, map_pixels(source, quantize<std::uint8_t>));
