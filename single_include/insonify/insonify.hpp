@@ -27050,7 +27050,7 @@ class banding_law {
 
     Banding b_;
     philox_key drift_, jitter_;
-    int row_ = -1;
+    std::optional<int> row_;  // of the factor; any number, as images have any origin
     float factor_ = 1;
 };
 
@@ -27320,7 +27320,8 @@ class water_law {
     Water w_;
     philox_key key_;
     dynamic_array<float> steady_;
-    int first_ = 0, row_ = -1;
+    int first_ = 0;
+    std::optional<int> row_;  // of the start below; any number, as images have any origin
     double begins_ = 0;
 };
 

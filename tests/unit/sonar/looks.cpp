@@ -158,6 +158,20 @@ TEST_CASE("Filters by column take parts of a picture and masks, and noise of no 
     for (const float v : loud.pixels()) REQUIRE(std::isfinite(v));
 }
 
+TEST_CASE("Filters by ping take parts of a picture that begin at any row") {
+    const in::image<float> picture(3, 8, 1.0f);
+    const auto check = [&](const auto& filter) {
+        const in::serial_executor ex;
+        const auto whole = in::apply(picture, filter, ex, in::pixel_origin{0, -4});
+        for (int y = 0; y < 8; ++y) {
+            const auto part = in::apply(picture.view().part(0, y, 3, 1), filter, ex, in::pixel_origin{0, y - 4});
+            REQUIRE(part(1, 0) == whole(1, y));
+        }
+    };
+    check(in::ping_banding{});
+    check(in::water_column{.surface = 1, .surface_range = 0.02f});
+}
+
 TEST_CASE("ping_banding() scales whole pings by drift and jitter, by ping number") {
     const auto levels = [](const in::ping_banding& banding, int pings) {
         const auto picture = in::image<float>(3, pings, 1.0f) | banding;

@@ -13,6 +13,7 @@
 #include <insonify/sonar/side_scan/sonar_equation.hpp>
 
 #include <concepts>
+#include <optional>
 #include <type_traits>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -80,7 +81,7 @@ class banding_law {
 
     Banding b_;
     philox_key drift_, jitter_;
-    int row_ = -1;
+    std::optional<int> row_;  // of the factor; any number, as images have any origin
     float factor_ = 1;
 };
 

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <concepts>
 #include <limits>
+#include <optional>
 #include <type_traits>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -70,7 +71,8 @@ class water_law {
     Water w_;
     philox_key key_;
     dynamic_array<float> steady_;
-    int first_ = 0, row_ = -1;
+    int first_ = 0;
+    std::optional<int> row_;  // of the start below; any number, as images have any origin
     double begins_ = 0;
 };
 
