@@ -7855,7 +7855,7 @@ inline namespace INSONIFY_ABI {
 struct speckle_law {
     int looks = 1;      ///< independent intensities that are averaged: 1 to 64
     float texture = 0;  ///< shape of the K-distribution: rock 0.5 to 2, sand 8 to 20; 0: no texture
-    float steady = 0;   ///< power of a steady echo over that of the diffuse ones: Rician amplitudes
+    float steady = 0;   ///< power of a steady echo over that of the diffuse ones, 0 to 1e6: Rician amplitudes
     friend bool operator==(const speckle_law&, const speckle_law&) = default;
 };
 
@@ -26368,7 +26368,7 @@ inline void validate(const speckle_law& law) {
     require_range("speckle_law.looks", law.looks, 1, 64, "1 to 64");
     require(law.texture == 0 || (law.texture >= 0.01f && numeric::is_finite(law.texture)), "speckle_law.texture",
             law.texture, "0, or at least 0.01");
-    require_not_negative("speckle_law.steady", law.steady);
+    require_range("speckle_law.steady", law.steady, 0, 1e6, "0 to 1e6");
 }
 
 /// The law of each label.

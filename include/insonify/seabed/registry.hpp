@@ -56,7 +56,7 @@ inline namespace INSONIFY_ABI {
 struct speckle_law {
     int looks = 1;      ///< independent intensities that are averaged: 1 to 64
     float texture = 0;  ///< shape of the K-distribution: rock 0.5 to 2, sand 8 to 20; 0: no texture
-    float steady = 0;   ///< power of a steady echo over that of the diffuse ones: Rician amplitudes
+    float steady = 0;   ///< power of a steady echo over that of the diffuse ones, 0 to 1e6: Rician amplitudes
     friend bool operator==(const speckle_law&, const speckle_law&) = default;
 };
 

@@ -64,7 +64,7 @@ inline void validate(const speckle_law& law) {
     require_range("speckle_law.looks", law.looks, 1, 64, "1 to 64");
     require(law.texture == 0 || (law.texture >= 0.01f && numeric::is_finite(law.texture)), "speckle_law.texture",
             law.texture, "0, or at least 0.01");
-    require_not_negative("speckle_law.steady", law.steady);
+    require_range("speckle_law.steady", law.steady, 0, 1e6, "0 to 1e6");
 }
 
 /// The law of each label.

@@ -60,6 +60,7 @@ TEST_CASE("Looks, K and Rician speckle have the scintillation index of their for
                                       {1, 0.5f, 0},
                                       {1, 0, 1},
                                       {1, 0, 10},
+                                      {64, 0, 1e6f},
                                       {3, 4, 2}}) {
         const auto [mean, index] = of(speckled(law));
         const auto steady = static_cast<double>(law.steady);
