@@ -69,6 +69,9 @@ class Plans(unittest.TestCase):
         first = self.replay("a", "--count", 12, "--size", 64, "--seed", 3, "--targets", "tyre,ship,cylinder", "--format", "npy")
         self.assertEqual({row["recipe"] for row in manifest(first)}, {"sonar"})
         self.replay("b", "--size", 48, "--per-class", "crate=2,empty=1,plane=2", "--first", 1, "--count", 4)
+        # The largest pixels, and streaks of a kilometre.
+        coarse = self.replay("c", "--size", 16, "--seed", 3, "--empty", 0.3, "--first", 30, "--count", 8)
+        self.assertGreater(max(float(row["streak_length_m"]) for row in manifest(coarse)), 1000)
 
     def test_a_manifest_reproduces_a_set_of_the_published_recipe(self):
         self.replay("a", "--recipe", "published", "--size", 64, "--count", 8, "--seed", 18446744073709551615, "--noise",
@@ -282,6 +285,19 @@ class Plans(unittest.TestCase):
             for words in ("t.csv", *said):
                 self.assertIn(words, message, text)
             self.assertFalse((self.folder / "x").exists(), text)  # a refused plan leaves no folder
+
+    def test_a_value_that_no_scene_takes_is_refused_before_anything_is_made(self):
+        for column, value in (("looks", 65), ("looks_drawn", 0), ("texture", -1), ("tone_drift_db", 31), ("tone_drift_db", -1),
+                              ("tone_streaks_db", 31), ("tone_patches_db", -31), ("patch_share", 0), ("gain_error_db", 61),
+                              ("gain_error_px", 0.5), ("gain_slope_db", -61), ("banding_drift_db", -1), ("banding_px", 0),
+                              ("banding_jitter_db", 61), ("noise_floor", -1), ("volume", -1), ("correlation_across_px", 17),
+                              ("correlation_along_px", 17), ("depth_over_altitude", 0), ("display_range_factor", 0),
+                              ("exponent", 5), ("black_share", 0.5), ("white_share", 0.5), ("steepness", 0.6), ("swell", 0.6),
+                              ("disorder", 0.4), ("feature_px", 0), ("streak_px", 0), ("streak_ratio", -1), ("ping_stretch", 0),
+                              ("survey_grazing_deg", 90)):
+            said = refusal("--out", self.folder / "a", "--plan", self.table(f"index,class,{column}\n0,ship,{value}\n"))
+            self.assertIn(f"line 2: column {column} has '{value}', expected a", said)
+            self.assertFalse((self.folder / "a").exists())
 
     def test_options_that_contradict_the_plan_are_refused(self):
         plan = ["--out", self.folder / "x", "--plan", self.table("index,class,seabed\n0,cube,sand\n")]
