@@ -6,9 +6,10 @@
 
 namespace examples {
 
-/// The shadow of the vertex that casts farthest. Metres, from the sonar.
+/// The shadow of the vertex that casts farthest; those below the datum are buried and cast none. Metres, from the
+/// sonar.
 struct longest_shadow {
-    double tip = 0;                            ///< ground range where the shadow ends
+    double tip = 0;                            ///< ground range where the shadow ends; 0 if no vertex casts one
     double ground_range = 0, slant_range = 0;  ///< of the vertex
     double slant_length = 0;                   ///< of the shadow, in slant range; 0 if no vertex casts one
     double height = -1e30;                     ///< of the target's highest point above the datum
@@ -27,7 +28,7 @@ longest_shadow shadow_of(const insonify::target& t, const insonify::ping_frame& 
         visit(glm::dvec3(across_along, world.z));
         s.height = (std::max)(s.height, world.z);
         const double tip = geometry::shadow_tip(across_along.x, altitude, world.z);
-        if (!(tip > s.tip)) continue;
+        if (world.z <= 0 || !(tip > s.tip)) continue;
         s.tip = tip;
         s.ground_range = across_along.x;
         s.slant_range = geometry::slant_range(across_along.x, altitude, world.z);

@@ -17,7 +17,7 @@ struct target_geometry {
     double grazing;                      ///< radians, of the sound or light on level ground at the target
     double aspect;                       ///< radians in [0, 2 pi): from the line of sight to the target's x axis
     double height;                       ///< of its highest vertex above the datum
-    double shadow, shadow_measured;      ///< from the echo of the point that casts the shadow's tip, to the tip
+    double shadow, shadow_measured;      ///< from the echo of the point that casts the shadow's tip, to the tip; or 0
     bool shadow_is_cut;                  ///< by the right edge of the picture
     bool target_is_cut;                  ///< by any edge of the picture
 };
@@ -61,7 +61,7 @@ target_geometry geometry_of(const in::side_scan_rig<Axis>& rig, const in::target
     const double echo = slant ? s.slant_range : s.ground_range;
     f.shadow = slant ? s.slant_length : s.tip - s.ground_range;
     const int end = seen.shadow_box.x1;
-    f.shadow_measured = f.left_edge + end * f.metres_per_pixel - echo;
+    if (s.tip > 0 && seen.shadow_area > 0) f.shadow_measured = f.left_edge + end * f.metres_per_pixel - echo;
     f.shadow_is_cut = end >= rig.bins;
     return f;
 }
@@ -79,7 +79,7 @@ inline target_geometry geometry_of(const in::overhead_geometry& view, const in::
     f.grazing = static_cast<double>(rig.grazing);
     f.aspect = wrapped(static_cast<double>(t.placement.yaw) - static_cast<double>(rig.yaw));
     const glm::dvec2 half = view.half_extent(0);
-    double farthest = -1e30, foot = 0;
+    double farthest = -1e30, foot = farthest;
     for (const glm::vec3& v : t.shape->positions) {
         const glm::dvec3 p = in::transform_point(to_rig, v);
         f.height = (std::max)(f.height, p.z);
@@ -87,11 +87,11 @@ inline target_geometry geometry_of(const in::overhead_geometry& view, const in::
         const double out = static_cast<double>(rig.altitude) / (static_cast<double>(rig.altitude) - p.z);
         f.target_is_cut = f.target_is_cut || !(out > 0) || std::abs(p.x) * out > half.x || std::abs(p.y) * out > half.y;
         const double tip = p.x + p.z * view.light().cot_elevation();
-        if (tip > farthest) farthest = tip, foot = p.x;
+        if (p.z > 0 && tip > farthest) farthest = tip, foot = p.x;  // those below the datum are buried
     }
     f.shadow = farthest - foot;
     const int end = seen.shadow_box.x1;
-    f.shadow_measured = f.left_edge + end * f.metres_per_pixel - foot;
+    if (f.shadow > 0 && seen.shadow_area > 0) f.shadow_measured = f.left_edge + end * f.metres_per_pixel - foot;
     f.shadow_is_cut = end >= rig.size.x;
     return f;
 }

@@ -310,6 +310,26 @@ class Generator(unittest.TestCase):
         for mode in "overhead", "ground_range", "slant_range":
             self.assertGreaterEqual(checked.get(mode, 0), 4, mode)
 
+    def test_shadows_that_are_not_there_have_no_length(self):
+        # Targets of a few centimetres between rocks, and buried cones whose base the light reaches beyond the tip.
+        run("--out", self.folder / "a", "--mode", "slant_range", "--pixels", 64, "--count", 24, "--seabeds", "rock,ripples",
+            "--target-size", "0.05:0.1")
+        run("--out", self.folder / "b", "--pixels", 64, "--count", 4, "--targets", "cone", "--grazing", 75, "--burial", 0.3)
+        rows = self.read_manifest(self.folder / "a") + self.read_manifest(self.folder / "b")
+        hidden = [row for row in rows if row["shadow_area_px"] == "0"]
+        self.assertTrue(hidden)
+        self.assertEqual({float(row["shadow_measured_m"]) for row in hidden}, {0})
+        self.assertTrue(all(float(row["shadow_m"]) >= 0 for row in rows))
+
+    def test_a_buried_wing_casts_no_shadow(self):
+        # The far wing of this aeroplane lies below the datum.
+        run("--out", self.folder / "a", "--recipe", "sonar", "--size", 96, "--seed", 5, "--first", 105, "--count", 1)
+        row, = self.read_manifest(self.folder / "a")
+        pixel = float(row["chip_m"]) / 96
+        self.assertEqual((row["class"], row["shadow_is_cut"]), ("plane", "false"))
+        self.assertGreater(float(row["shadow_m"]), 0)
+        self.assertAlmostEqual(float(row["shadow_m"]), float(row["shadow_measured_m"]), delta=pixel)
+
     def test_every_mode_has_masks_and_bytes_that_do_not_depend_on_threads(self):
         for mode in "ground_range", "slant_range":
             options = ["--mode", mode, "--pixels", 64, "--count", 6, "--seabeds", "mixed,rock"]
