@@ -299,6 +299,13 @@ class Plans(unittest.TestCase):
             self.assertIn(f"line 2: column {column} has '{value}', expected a", said)
             self.assertFalse((self.folder / "a").exists())
 
+    def test_chips_of_centimetres_have_bottoms_of_every_type(self):
+        types = "mixed", "mud", "ripples", "rock", "sand"
+        lines = [f"{i},sphere,64,0.03,0.01,2.3,1,{seabed}\n" for i, seabed in enumerate(types)]
+        run("--out", self.folder / "a", "--plan",
+            self.table("index,class,size_px,chip_m,t1_length_m,feature_px,trawls,seabed\n" + "".join(lines)))
+        self.assertEqual(tuple(row["seabed"] for row in manifest(self.folder / "a")), types)
+
     def test_options_that_contradict_the_plan_are_refused(self):
         plan = ["--out", self.folder / "x", "--plan", self.table("index,class,seabed\n0,cube,sand\n")]
         self.assertIn("column index", refusal(*plan, "--aspects", "0:10:350"))

@@ -22,6 +22,8 @@ namespace detail {
 inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
     namespace sb = in::seabed;
     const auto of = [](double metres) { return static_cast<float>(metres); };
+    // Most lengths of the models are 1 mm at least.
+    const auto length = [](double metres) { return static_cast<float>((std::max)(metres, 1e-3)); };
     const auto feature = of(p.feature), fine = of(1.2 * pixel);
     // Relief is proportional to its length scale, which keeps its slopes.
     const auto rough = [&](double longest, double share) {
@@ -44,22 +46,22 @@ inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
                               .seed = p.bottom_seed};
     const sb::trawl_marks trawls{.density = of((std::min)(4 * p.trawls / p.chip, 0.08 / pixel)),
                                  .depth = of(0.25 * pixel),
-                                 .width = of(2.5 * pixel),
+                                 .width = length(2.5 * pixel),
                                  .length = of(2 * p.chip)};
     if (p.bottom == "ripples") return ripples;
     if (p.bottom == "mud")
         return sb::mud{.surface = rough((std::max)(4 * p.feature, 8 * pixel), 0.06 * p.roughness),
                        .density = of(0.004 / (p.feature * p.feature) * p.cover),
-                       .size = of(0.5 * p.feature),
+                       .size = length(0.5 * p.feature),
                        .mound_height = of(0.05 * p.feature),
                        .pock_depth = of(0.08 * p.feature),
                        .trawls = trawls,
                        .seed = p.bottom_seed};
     if (p.bottom == "rock")
         return sb::rock{.relief = of(0.35 * p.feature * (0.3 + p.cover)),
-                        .outcrop = of(4 * p.feature),
-                        .block = feature,
-                        .smallest = (std::max)(of(0.3 * p.feature), (std::min)(fine, feature)),
+                        .outcrop = length(4 * p.feature),
+                        .block = length(p.feature),
+                        .smallest = (std::max)(length(0.3 * p.feature), (std::min)(fine, feature)),
                         .steepness = 1.2f,
                         .surface = rough(p.feature, 0.3 * p.roughness),
                         .seed = p.bottom_seed};
@@ -67,8 +69,8 @@ inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
         return sb::blend{.first = ripples,
                          .second = sand,
                          .coverage = of(p.cover),
-                         .patch = of(6 * p.feature),
-                         .border = of(0.7 * p.feature),
+                         .patch = length(6 * p.feature),
+                         .border = length(0.7 * p.feature),
                          .seed = p.bottom_seed};
     return sand;
 }
