@@ -299,6 +299,14 @@ class Plans(unittest.TestCase):
             self.assertIn(f"line 2: column {column} has '{value}', expected a", said)
             self.assertFalse((self.folder / "a").exists())
 
+    def test_a_target_is_cut_by_the_sides_of_the_picture(self):
+        # Rows of 2 / 32 m around their pings: the picture begins at -1 / 32 m and ends at 2 - 1 / 32 m.
+        lines = [f"{i},sphere,32,2,2,0.5,{along / 2},0,0,1,sand\n" for i, along in enumerate((0.23, 0.21, 1.71, 1.73))]
+        run("--out", self.folder / "a", "--plan",
+            self.table("index,class,size_px,chip_m,track_m,t1_length_m,t1_along,t1_burial,t1_scour,targets,seabed\n" +
+                       "".join(lines)))
+        self.assertEqual([row["target_is_cut"] for row in manifest(self.folder / "a")], ["false", "true", "false", "true"])
+
     def test_chips_of_centimetres_have_bottoms_of_every_type(self):
         types = "mixed", "mud", "ripples", "rock", "sand"
         lines = [f"{i},sphere,64,0.03,0.01,2.3,1,{seabed}\n" for i, seabed in enumerate(types)]

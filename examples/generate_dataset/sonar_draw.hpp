@@ -12,7 +12,6 @@ struct sonar_picture {
     target_geometry geometry{};     ///< of the first target, before the image is turned
     std::vector<in::pose> poses;    ///< of the targets
     std::vector<double> footprint;  ///< of each target on the bottom, pixels
-    std::vector<bool> is_cut;       ///< by the chip's edge
     glm::dvec2 rig{0, 0};
     glm::dvec2 metres_per_pixel{0, 0};  ///< along a row and along a column of the turned image
 };
@@ -161,15 +160,6 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
         for (std::size_t a = 0, b = outline.size() - 1; a < outline.size(); b = a++)
             area += 0.5 * (outline[b].x * outline[a].y - outline[a].x * outline[b].y);
         out.footprint.push_back(area / (pixel * ping));
-        bool cut = false;
-        for_each_vertex(scene.targets.back(), [&](const glm::dvec3& world) {
-            const glm::dvec3 q = frame(world);
-            const double range = Axis == in::across_track::ground_range
-                                     ? q.x
-                                     : in::range_geometry::slant_range(q.x, p.altitude, world.z);
-            cut = cut || range < first || range > first + p.chip || q.y < 0 || q.y > p.track;
-        });
-        out.is_cut.push_back(cut);
     }
     in::random_sequence dice(p.clutter_seed, 0x636C7500);
     for (int i = 0; i < p.clutter + p.debris; ++i) {

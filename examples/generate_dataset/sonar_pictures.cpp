@@ -111,7 +111,7 @@ std::vector<file> files_of_sonar(const options& o, std::uint64_t index, const vi
     parameters["shadow_m"] = known(d.geometry.shadow);
     parameters["shadow_measured_m"] = known(d.geometry.shadow_measured);
     parameters["shadow_is_cut"] = known(d.geometry.shadow_is_cut);
-    parameters["target_is_cut"] = known(any && d.is_cut[0]);
+    parameters["target_is_cut"] = known(d.geometry.target_is_cut);
     parameters["visible_share"] = known(shown);
     parameters["target_area_px"] = target_area;
     parameters["shadow_area_px"] = shadow_area;

@@ -28,13 +28,6 @@ inline double wrapped(double radians) {
     return radians - 2 * in::numeric::pi * static_cast<double>(in::numeric::floor_to_int(turns));
 }
 
-/// Calls `visit` with every vertex of a target in the world.
-template <class Fn>
-void for_each_vertex(const in::target& t, const Fn& visit) {
-    const in::affine to_world = in::to_world(t.placement);
-    for (const glm::vec3& v : t.shape->positions) visit(in::transform_point(to_world, v));
-}
-
 /// Geometry under a side-scan sonar over a level bottom. The vertex whose shadow reaches farthest casts the tip.
 template <in::across_track Axis>
 target_geometry geometry_of(const in::side_scan_rig<Axis>& rig, const in::target& t, const in::target_label& seen) {
