@@ -310,6 +310,15 @@ class Generator(unittest.TestCase):
         for mode in "overhead", "ground_range", "slant_range":
             self.assertGreaterEqual(checked.get(mode, 0), 4, mode)
 
+    def test_along_counts_from_below_for_a_camera_and_from_the_first_ping_for_a_sonar(self):
+        for mode in "overhead", "slant_range":
+            out = self.folder / mode
+            run("--out", out, "--mode", mode, "--pixels", 64, "--count", 4, "--seabeds", "mud", "--aspects", "random",
+                "--place", "anywhere")
+            for v, target, _ in self.read_labels(out):
+                top = (target[1] + target[3] / 2) / 64
+                self.assertAlmostEqual(float(v["along"]), 1 - top if mode == "overhead" else top, delta=0.1)
+
     def test_shadows_that_are_not_there_have_no_length(self):
         # Targets of a few centimetres between rocks, and buried cones whose base the light reaches beyond the tip.
         run("--out", self.folder / "a", "--mode", "slant_range", "--pixels", 64, "--count", 24, "--seabeds", "rock,ripples",

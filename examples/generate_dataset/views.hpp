@@ -123,7 +123,8 @@ inline view_of_target view_of_sonar(const options& o, std::uint64_t i) {
     return {o.targets[(i - empties(i)) % o.targets.size()], "", "", {}};
 }
 
-/// Ranges of a target's position in its image, as shares of the width from the left and of the height from below.
+/// Ranges of a target's position in its image, as shares of the width from the left and of the height from below
+/// (overhead) or from the first ping, the top row (side-scan).
 struct placement_range {
     range across, along;
 };
