@@ -32,8 +32,7 @@ class strict_config : public CLI::ConfigTOML {
     /// The text without comments, which CLI11 takes for a part of the value behind a list.
     std::string checked(const std::string& text) const {
         std::istringstream lines(text);
-        std::string bare;
-        std::string line;
+        std::string bare, line;
         bool in_array = false;
         for (std::size_t number = 1; std::getline(lines, line); ++number) {
             for (const char c : line)

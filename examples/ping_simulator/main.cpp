@@ -126,11 +126,9 @@ int main(int argc, char** argv) try {
         return std::string("images/") + pings::class_names[kinds[i]] + "/" +
                std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits + ".png";
     };
-    remove_other_chips(o.out, [&] {
-        std::set<std::string> kept;
-        for (std::size_t i = 0; i < kinds.size(); ++i) kept.insert(file_of(i));
-        return kept;
-    }());
+    std::set<std::string> files;
+    for (std::size_t i = 0; i < kinds.size(); ++i) files.insert(file_of(i));
+    remove_other_chips(o.out, files);
     const unsigned threads = o.threads > 0 ? o.threads : std::max(1u, std::thread::hardware_concurrency());
     on_threads(threads, kinds.size(), [&](std::size_t i) {
         pings::scene s = scene_at(i);

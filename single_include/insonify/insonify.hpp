@@ -1074,74 +1074,6 @@ auto map_pixels(const image<T>& source, Fn&& fn) {
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
-// ------------ insonify/core/linear.hpp ------------------------------------------------------------------
-// Products of vectors and matrices with fixed rounding. GLM's may be compiled with fused multiply-add, which would make
-// pictures depend on compiler flags. Storage, sums and scalings are GLM's.
-
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace numeric {
-
-inline namespace INSONIFY_FLAGS {
-
-/// Dot product.
-template <class T>
-INSONIFY_INLINE T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-/// Cross product.
-template <class T>
-INSONIFY_INLINE glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
-    return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
-}
-
-/// m v, as GLM stores matrices: by columns.
-template <class T>
-INSONIFY_INLINE glm::vec<3, T> product(const glm::mat<3, 3, T>& m, const glm::vec<3, T>& v) {
-    return {m[0].x * v.x + m[1].x * v.y + m[2].x * v.z, m[0].y * v.x + m[1].y * v.y + m[2].y * v.z,
-            m[0].z * v.x + m[1].z * v.y + m[2].z * v.z};
-}
-
-/// The same for three coordinates that may be SIMD lanes; `into` and `v` must not overlap.
-template <class Floats>
-INSONIFY_INLINE void product(Floats* into, const glm::mat3& m, const Floats* v) {
-    into[0] = m[0].x * v[0] + m[1].x * v[1] + m[2].x * v[2];
-    into[1] = m[0].y * v[0] + m[1].y * v[1] + m[2].y * v[2];
-    into[2] = m[0].z * v[0] + m[1].z * v[1] + m[2].z * v[2];
-}
-
-/// Matrix product a b.
-template <class T>
-glm::mat<3, 3, T> product(const glm::mat<3, 3, T>& a, const glm::mat<3, 3, T>& b) {
-    return {product(a, b[0]), product(a, b[1]), product(a, b[2])};
-}
-
-/// Cofactor matrix: det(m) times the inverse transpose, which transforms area vectors (cross products of edges).
-template <class T>
-glm::mat<3, 3, T> cofactors(const glm::mat<3, 3, T>& m) {
-    return {cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
-}
-
-/// Determinant of a matrix.
-template <class T>
-T determinant(const glm::mat<3, 3, T>& m) {
-    return dot(m[0], cross(m[1], m[2]));
-}
-
-}  // namespace INSONIFY_FLAGS
-
-}  // namespace numeric
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/core/numeric.hpp -----------------------------------------------------------------
 // Elementary functions with the same bits on every machine, and the `deg` literal.
 //
@@ -1386,6 +1318,80 @@ void validate_if_possible(const T& value) {
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/core/linear.hpp ------------------------------------------------------------------
+// Vectors and matrices: products with fixed rounding, and whether coordinates are finite. GLM's products may be compiled
+// with fused multiply-add, which would make pictures depend on compiler flags. Storage, sums and scalings are GLM's.
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace numeric {
+
+inline namespace INSONIFY_FLAGS {
+
+/// Whether no coordinate is NaN or infinite.
+template <class T>
+INSONIFY_INLINE bool is_finite(const glm::vec<3, T>& v) {
+    return is_finite(v.x) && is_finite(v.y) && is_finite(v.z);
+}
+
+/// Dot product.
+template <class T>
+INSONIFY_INLINE T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/// Cross product.
+template <class T>
+INSONIFY_INLINE glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
+    return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
+}
+
+/// m v, as GLM stores matrices: by columns.
+template <class T>
+INSONIFY_INLINE glm::vec<3, T> product(const glm::mat<3, 3, T>& m, const glm::vec<3, T>& v) {
+    return {m[0].x * v.x + m[1].x * v.y + m[2].x * v.z, m[0].y * v.x + m[1].y * v.y + m[2].y * v.z,
+            m[0].z * v.x + m[1].z * v.y + m[2].z * v.z};
+}
+
+/// The same for three coordinates that may be SIMD lanes; `into` and `v` must not overlap.
+template <class Floats>
+INSONIFY_INLINE void product(Floats* into, const glm::mat3& m, const Floats* v) {
+    into[0] = m[0].x * v[0] + m[1].x * v[1] + m[2].x * v[2];
+    into[1] = m[0].y * v[0] + m[1].y * v[1] + m[2].y * v[2];
+    into[2] = m[0].z * v[0] + m[1].z * v[1] + m[2].z * v[2];
+}
+
+/// Matrix product a b.
+template <class T>
+glm::mat<3, 3, T> product(const glm::mat<3, 3, T>& a, const glm::mat<3, 3, T>& b) {
+    return {product(a, b[0]), product(a, b[1]), product(a, b[2])};
+}
+
+/// Cofactor matrix: det(m) times the inverse transpose, which transforms area vectors (cross products of edges).
+template <class T>
+glm::mat<3, 3, T> cofactors(const glm::mat<3, 3, T>& m) {
+    return {cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
+}
+
+/// Determinant of a matrix.
+template <class T>
+T determinant(const glm::mat<3, 3, T>& m) {
+    return dot(m[0], cross(m[1], m[2]));
+}
+
+}  // namespace INSONIFY_FLAGS
+
+}  // namespace numeric
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -6265,8 +6271,7 @@ inline bounding_box merge(bounding_box a, const bounding_box& b) {
 
 /// The smallest box around a box and a point; a point with a NaN or infinite coordinate is skipped.
 inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
-    const bool finite = numeric::is_finite(point.x) && numeric::is_finite(point.y) && numeric::is_finite(point.z);
-    return finite ? merge(box, {point, point}) : box;
+    return numeric::is_finite(point) ? merge(box, {point, point}) : box;
 }
 
 /// The smallest box around all finite positions, including those that no triangle uses.
@@ -15658,7 +15663,7 @@ struct plane_vertices_kernel {
   private:
     void one(std::size_t i) const {
         const glm::dvec3 p = transform_point(to_plane, glm::dvec3(positions[i]));
-        if (!(numeric::is_finite(p.x) && numeric::is_finite(p.y) && numeric::is_finite(p.z))) {
+        if (!numeric::is_finite(p)) {
             vertices[i] = {0, 0, 0, plane_vertex::not_finite};
             return;
         }
@@ -20695,7 +20700,7 @@ inline std::vector<glm::dvec2> footprint(const mesh_view& m, const pose& placeme
     std::vector<glm::dvec3> points;
     for (const glm::vec3& p : m.positions) {
         const glm::dvec3 at = transform_point(map, glm::dvec3(p));
-        if (!(numeric::is_finite(at.x) && numeric::is_finite(at.y) && numeric::is_finite(at.z))) continue;
+        if (!numeric::is_finite(at)) continue;
         points.push_back(at);
         lowest = (std::min)(lowest, at.z);
     }
@@ -22859,10 +22864,9 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-/// Scour by a current around a footprint, such as that of a target: `moat{.outline = footprint(mesh, pose, height)}`
-/// (geometry/objects/footprint.hpp).
-/// Inside of the outline it ends at width / 2, so that the ground below the middle of a wide target keeps its height.
-/// Place targets first, by `rest_on` of the ground without the moat.
+/// Scour by a current around a footprint, such as that of a target: `moat{.outline = footprint(mesh, pose, height)}`,
+/// with geometry/objects/footprint.hpp. Inside of the outline it ends at width / 2, so that the ground below the middle
+/// of a wide target keeps its height. Place targets first, by `rest_on` of the ground without the moat.
 struct moat {
     std::vector<glm::dvec2> outline{
         {-1, -1}, {1, -1}, {1, 1}, {-1, 1}};  ///< of the target on the ground, 3 to 4096 corners

@@ -236,9 +236,10 @@ class Submission(unittest.TestCase):
         self.assertIn("--array=0-7", first)
         self.assertIn("--time=1", first)
         self.assertIn("--dependency=afterok:17", second)
-        for submitted, expected in (first, ["/opt/my programs/generate_dataset", "--threads", "1", "--count=9", "--out",
-                                            f"{self.folder}/{out}", "--shard", "8"]), \
-                                   (second, ["/opt/my programs/merge_dataset", f"{self.folder}/{out}"]):
+        generate = ["/opt/my programs/generate_dataset", "--threads", "1", "--count=9", "--out", f"{self.folder}/{out}",
+                    "--shard", "8"]
+        merge = ["/opt/my programs/merge_dataset", f"{self.folder}/{out}"]
+        for submitted, expected in (first, generate), (second, merge):
             text = submitted.split("--wrap\nexec")[1]
             words = subprocess.run(["sh", "-c", r'printf "%s\n"' + text], capture_output=True, text=True, check=True).stdout
             self.assertEqual(words.splitlines(), expected)

@@ -1,8 +1,8 @@
-// Products of vectors and matrices with fixed rounding. GLM's may be compiled with fused multiply-add, which would make
-// pictures depend on compiler flags. Storage, sums and scalings are GLM's.
+// Vectors and matrices: products with fixed rounding, and whether coordinates are finite. GLM's products may be compiled
+// with fused multiply-add, which would make pictures depend on compiler flags. Storage, sums and scalings are GLM's.
 #pragma once
 
-#include <insonify/config.hpp>
+#include <insonify/core/numeric.hpp>
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -14,6 +14,12 @@ inline namespace INSONIFY_ABI {
 namespace numeric {
 
 inline namespace INSONIFY_FLAGS {
+
+/// Whether no coordinate is NaN or infinite.
+template <class T>
+INSONIFY_INLINE bool is_finite(const glm::vec<3, T>& v) {
+    return is_finite(v.x) && is_finite(v.y) && is_finite(v.z);
+}
 
 /// Dot product.
 template <class T>

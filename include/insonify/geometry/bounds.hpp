@@ -3,7 +3,7 @@
 
 #include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/executor.hpp>
-#include <insonify/core/numeric.hpp>
+#include <insonify/core/linear.hpp>
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/lanes.hpp>
 #include <insonify/geometry/mesh.hpp>
@@ -107,8 +107,7 @@ inline bounding_box merge(bounding_box a, const bounding_box& b) {
 
 /// The smallest box around a box and a point; a point with a NaN or infinite coordinate is skipped.
 inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
-    const bool finite = numeric::is_finite(point.x) && numeric::is_finite(point.y) && numeric::is_finite(point.z);
-    return finite ? merge(box, {point, point}) : box;
+    return numeric::is_finite(point) ? merge(box, {point, point}) : box;
 }
 
 /// The smallest box around all finite positions, including those that no triangle uses.

@@ -70,12 +70,12 @@ inline void write_png(const std::string& path, image_view<const std::uint8_t> so
 inline void write_png(const std::string& path, image_view<const rgb8> source) {
     detail::write_png_bytes(path, source.data(), source.width(), source.height(), 3, 3 * source.stride());
 }
-/// Labels and classes have 16 bits: `write_netpbm` of io/netpbm.hpp writes them.
-inline void write_png(const std::string& path, image_view<const std::uint16_t> source) = delete;
 /// The same for values in [0, 1], rounded to 8 bits.
 inline void write_png(const std::string& path, image_view<const float> source) {
     write_png(path, map_pixels(source, quantize<std::uint8_t>));
 }
+/// Labels and classes have 16 bits: `write_netpbm` of io/netpbm.hpp writes them.
+inline void write_png(const std::string& path, image_view<const std::uint16_t> source) = delete;
 
 }  // namespace INSONIFY_FLAGS
 

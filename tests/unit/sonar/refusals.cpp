@@ -219,9 +219,9 @@ TEST_CASE("with_speckle() refuses each field of a speckle by name") {
     check_fields<in::seabed_speckle>("seabed_speckle.", {}, use,
                                      {FIELD(along_track, outside(0, 16)), FIELD(across_track, outside(0, 16)),
                                       FIELD(texture_length, outside(1, 1024))});
-    const std::initializer_list<field<in::speckle_law>> law{
-        FIELD(looks, outside_whole(1, 64)), FIELD(texture, {nan_value, infinity, -1, 0.001}),
-        FIELD(steady, outside(0, 1e6))};
+    const std::initializer_list<field<in::speckle_law>> law{FIELD(looks, outside_whole(1, 64)),
+                                                            FIELD(texture, {nan_value, infinity, -1, 0.001}),
+                                                            FIELD(steady, outside(0, 1e6))};
     check_fields<in::speckle_law>(
         "speckle_law.", {}, [&](const in::speckle_law& l) { use({.elsewhere = l}); }, law);
     check_fields<in::speckle_law>(

@@ -4,7 +4,7 @@
 // Letters 9(5), 1979.
 #pragma once
 
-#include <insonify/core/numeric.hpp>
+#include <insonify/core/linear.hpp>
 #include <insonify/geometry/mesh.hpp>
 #include <insonify/geometry/transform.hpp>
 
@@ -32,7 +32,7 @@ inline std::vector<glm::dvec2> footprint(const mesh_view& m, const pose& placeme
     std::vector<glm::dvec3> points;
     for (const glm::vec3& p : m.positions) {
         const glm::dvec3 at = transform_point(map, glm::dvec3(p));
-        if (!(numeric::is_finite(at.x) && numeric::is_finite(at.y) && numeric::is_finite(at.z))) continue;
+        if (!numeric::is_finite(at)) continue;
         points.push_back(at);
         lowest = (std::min)(lowest, at.z);
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
+#include <insonify/core/linear.hpp>
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/lanes.hpp>
 #include <insonify/core/simd/transpose.hpp>
@@ -67,7 +68,7 @@ struct plane_vertices_kernel {
   private:
     void one(std::size_t i) const {
         const glm::dvec3 p = transform_point(to_plane, glm::dvec3(positions[i]));
-        if (!(numeric::is_finite(p.x) && numeric::is_finite(p.y) && numeric::is_finite(p.z))) {
+        if (!numeric::is_finite(p)) {
             vertices[i] = {0, 0, 0, plane_vertex::not_finite};
             return;
         }
