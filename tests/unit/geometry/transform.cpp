@@ -122,6 +122,7 @@ TEST_CASE("A bounding box starts empty, grows by points and boxes, and skips non
     CHECK(merge(box, in::bounding_box{}) == box);
     CHECK(include(box, {-inf, 0, 0}) == box);
     CHECK(include(box, {0, inf - inf, 0}) == box);
+    CHECK(include(box, {0, 0, inf}) == box);
     box = merge(box, in::include({}, {-1, 5, 3}));
     CHECK(box.lower == glm::dvec3(-1, 2, 3));
     CHECK(box.upper == glm::dvec3(1, 5, 3));
