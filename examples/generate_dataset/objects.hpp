@@ -125,7 +125,7 @@ inline in::mesh plane_of(const object_form& f, in::random_sequence& draw) {
     if (f.damage > 0.55) {
         a.port_wing = draw.uniform() < 0.5 ? 1.0f : between(draw, 0.1, 0.9);
         a.starboard_wing = draw.uniform() < 0.5 ? 1.0f : between(draw, 0.1, 0.9);
-        a.torn_off = draw.uniform() < 0.5 ? 0.0f : between(draw, 0.3, 3);
+        a.torn_off = draw.uniform() < 0.5 ? 0.0f : (std::min)(between(draw, 0.3, 3), 2 * length);
         if (f.damage > 0.8) a.tail_gap = between(draw, 0.1, 0.15 * f.length), a.tail_yaw = between(draw, -1, 1);
     }
     a.segments = 20;

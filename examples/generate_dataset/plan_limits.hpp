@@ -42,7 +42,7 @@ constexpr limits limits_of(std::string_view column) {
         {"streak_width_m", {1e-4, 1e5}},
         {"growth_length_m", {1e-4, 1e9}},
         {"patch_size_m", {1e-4, 1e9}},
-        {"length_m", {1e-3, 1e3}},
+        {"length_m", {1e-2, 1e3}},
         {"width_m", {1e-3, 1e3}},
         {"height_m", {1e-3, 1e3}},
         {"wavelength_m", {1e-2, 1e3}},

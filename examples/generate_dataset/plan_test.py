@@ -9,6 +9,7 @@ import fnmatch
 import functools
 import hashlib
 import io
+import json
 import math
 import pathlib
 import random
@@ -294,7 +295,7 @@ class Plans(unittest.TestCase):
                               ("correlation_along_px", 17), ("depth_over_altitude", 0), ("display_range_factor", 0),
                               ("exponent", 5), ("black_share", 0.5), ("white_share", 0.5), ("steepness", 0.6), ("swell", 0.6),
                               ("disorder", 0.4), ("feature_px", 0), ("streak_px", 0), ("streak_ratio", -1), ("ping_stretch", 0),
-                              ("survey_grazing_deg", 90)):
+                              ("survey_grazing_deg", 90), ("t1_length_m", 0.005), ("t2_pitch_rad", 2000)):
             said = refusal("--out", self.folder / "a", "--plan", self.table(f"index,class,{column}\n0,ship,{value}\n"))
             self.assertIn(f"line 2: column {column} has '{value}', expected a", said)
             self.assertFalse((self.folder / "a").exists())
@@ -306,6 +307,36 @@ class Plans(unittest.TestCase):
             self.table("index,class,size_px,chip_m,track_m,t1_length_m,t1_along,t1_burial,t1_scour,targets,seabed\n" +
                        "".join(lines)))
         self.assertEqual([row["target_is_cut"] for row in manifest(self.folder / "a")], ["false", "true", "false", "true"])
+
+    def test_debris_lies_along_its_wreck(self):
+        # Rows and columns of the same length, wrecks at any angle to the track.
+        head = ("index,class,targets,t1_length_m,t1_damage,t1_across,t1_along,rig_yaw_rad,t1_yaw_rad,port,ground_range,turn,chip_m,"
+                "track_m,first_range_m,altitude_m,has_debris,debris,has_clutter\n")
+        seen = [(port, rig, yaw) for port in ("false", "true") for rig in (0, 2) for yaw in (0.4, 1.5, 2.6, 5.6)]
+        lines = [f"{i},ship,1,20,0.1,0.5,0.5,{rig},{yaw},{port},true,0,40,40,60,20,true,80,false\n"
+                 for i, (port, rig, yaw) in enumerate(seen)]
+        run("--out", self.folder / "a", "--plan", self.table(head + "".join(lines)))
+        boxes = json.loads((self.folder / "a/annotations.json").read_text())
+        debris = {c["id"] for c in boxes["categories"] if c["name"] == "clutter"}
+        for row in manifest(self.folder / "a"):
+            heading = float(row["t1_yaw_rad"]) - float(row["rig_yaw_rad"])
+            hull = math.cos(heading) * (-1 if row["port"] == "true" else 1), math.sin(heading)
+            along, across = 0, 0
+            for b in boxes["annotations"]:
+                if b["image_id"] == int(row["index"]) and b["category_id"] in debris:
+                    x, y, width, height = b["bbox"]
+                    x, y = x + (width - 128) / 2, y + (height - 128) / 2
+                    along, across = along + (x * hull[0] + y * hull[1]) ** 2, across + (y * hull[0] - x * hull[1]) ** 2
+            self.assertGreater(along, 1.5 * across, row["index"])
+
+    def test_the_least_that_the_limits_allow_is_drawn(self):
+        for i, (kind, column, value) in enumerate((("ship", "t1_across", -1), ("plane", "t1_length_m", 0.01), ("tyre", "chip_m", 0.01),
+                                                   ("tyre", "fill", 100), ("ship", "clutter_size_m", 0.0002))):
+            run("--out", self.folder / str(i), "--size", 32, "--plan",
+                self.table(f"index,class,{column},trawls,debris,has_debris\n0,{kind},{value},2,40,true\n"))
+        for column, value in ("pulse_m", 100), ("texture", 0.009):
+            self.assertIn(f"line 2: column {column} has '{value}', expected ", refusal(
+                "--out", self.folder / column, "--plan", self.table(f"index,class,chip_m,{column}\n0,tyre,5,{value}\n")))
 
     def test_chips_of_centimetres_have_bottoms_of_every_type(self):
         types = "mixed", "mud", "ripples", "rock", "sand"

@@ -43,7 +43,7 @@ inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
                                          .bandwidth = 0.2f},
                               .surface = rough((std::max)(p.feature, 3 * pixel), 0.3 * p.roughness),
                               .seed = p.bottom_seed};
-    const sb::trawl_marks trawls{.density = of((std::min)(4 * p.trawls / p.chip, 0.08 / pixel)),
+    const sb::trawl_marks trawls{.density = of((std::min)({4 * p.trawls / p.chip, 0.08 / pixel, 200.0})),
                                  .depth = of(0.25 * pixel),
                                  .width = length(2.5 * pixel),
                                  .length = of(2 * p.chip)};
@@ -74,13 +74,17 @@ inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
     return sand;
 }
 
-/// Places a piece of debris: within a wreck's length, mostly inside the hull or close to it, about as reflective.
-inline void scatter_about(const placed_object& wreck, in::random_sequence& dice, placed_object& t) {
-    const double away = 0.35 * dice.uniform() * dice.uniform(), along = dice.uniform(-0.35, 0.35);
-    const auto turn = in::numeric::sin_cos(wreck.yaw);
+/// Places a piece of debris: within a wreck's length, mostly inside the hull or close to it, about as reflective. Chips
+/// are cut so that the length is about the root of their area.
+inline void scatter_about(const placed_object& wreck, const sonar_plan& p, in::random_sequence& dice,
+                          placed_object& t) {
+    const double reach = 0.35 * std::sqrt(p.chip * p.track);
+    const double away = reach * dice.uniform() * dice.uniform(), along = reach * dice.uniform(-1, 1);
+    const auto turn = in::numeric::sin_cos(wreck.yaw - p.rig_yaw);
     const double side = dice.uniform() < 0.5 ? -away : away;
-    t.across = wreck.across + along * turn.cosine - side * turn.sine;
-    t.along = wreck.along + along * turn.sine + side * turn.cosine;
+    const double to_starboard = along * turn.cosine - side * turn.sine;
+    t.across = wreck.across + (p.port ? -to_starboard : to_starboard) / p.chip;
+    t.along = wreck.along + (along * turn.sine + side * turn.cosine) / p.track;
     t.reflectivity = wreck.reflectivity * dice.uniform(0.5, 1.2);
     t.pitch = dice.uniform(-0.5, 0.5);
 }
@@ -169,12 +173,12 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
                   : kind < 0.85 ? "lobster_pot"
                   : kind < 0.95 ? "crate"
                                 : "tyre",
-                  p.clutter_size * dice.uniform(0.5, 1.3), dice.uniform(), dice.word()};
+                  (std::max)(p.clutter_size * dice.uniform(0.5, 1.3), 1e-3), dice.uniform(), dice.word()};
         t.yaw = dice.uniform(0, 2 * in::numeric::pi);
         t.burial = dice.uniform(0, 0.5);
         t.reflectivity = dice.uniform(0.8, 3);
         t.across = dice.uniform(0.02, 0.98), t.along = dice.uniform(0.02, 0.98);
-        if (i >= p.clutter) scatter_about(p.targets.front(), dice, t);
+        if (i >= p.clutter) scatter_about(p.targets.front(), p, dice, t);
         lay(mesh_of(t.form), t, clutter_class);
     }
     if (!scours.empty()) scene.seabed = in::seabed::sculpted{.ground = bottom, .edits = scours};

@@ -28,6 +28,10 @@ known_columns columns_of_sonar_recipe(const options& o) {
     std::vector<in::mesh> shapes;
     sample_image(o, s, {object_kinds[0].name, "", "", {}}, shapes);
     known_columns known{s.values(), s.choices(), {empty_class}};
+    // The second and the third target have what the first one has.
+    for (const auto& [column, example] : s.values().items())
+        if (column.starts_with("t1_"))
+            for (const char* const prefix : {"t2_", "t3_"}) known.examples[prefix + column.substr(3)] = example;
     for (const object_kind& k : object_kinds) known.classes.push_back(k.name);
     return known;
 }

@@ -237,8 +237,10 @@ inline void sample_look(const options& o, sampler& s, sonar_plan& p, double pixe
     p.growth = s.uniform("growth_db", growth.low, growth.high);
     p.growth_length = s.derived("growth_length_m", pixel * s.uniform("growth_px", 1.2, 4));
     p.growth_seed = s.word("growth_seed");
-    p.pulse = s.derived(
-        "pulse_m", (std::max)(static_cast<double>(p.sonar.range_resolution), pixel * s.uniform("pulse_px", 0.2, 1.2)));
+    const double pulse =
+        (std::max)(static_cast<double>(p.sonar.range_resolution), pixel * s.uniform("pulse_px", 0.2, 1.2));
+    p.pulse = s.derived("pulse_m", (std::min)(pulse, p.chip));
+    if (p.pulse > p.chip) s.refuse("pulse_m", "metres up to the width of the chip");
     const double beam = p.sonar.is_synthetic_aperture() ? static_cast<double>(p.sonar.along_track_resolution) / slant
                                                         : static_cast<double>(p.sonar.beamwidth);
     p.beam = s.derived("beam_rad", (std::max)(beam * s.uniform("beam_factor", 0.7, 1.5), 0.3 * pixel / slant));
@@ -273,6 +275,7 @@ inline void sample_look(const options& o, sampler& s, sonar_plan& p, double pixe
     p.grain_across = s.derived("correlation_across_px", p.grain_across);
     p.grain_along = s.derived("correlation_along_px", p.grain_along);
     p.texture = s.uniform_or_0("texture", 0.75, 4, 15);
+    if (p.texture > 0 && p.texture < 0.01) s.refuse("texture", "0, or a number from 0.01");
     p.noise_seed = s.word("noise_seed");
 
     p.display =
@@ -364,7 +367,7 @@ inline sonar_plan sample_image(const options& o, sampler& s, const view_of_targe
     // The range is limited so that the beam is at most 5 pixels wide.
     const double sharp = p.sonar.is_synthetic_aperture() ? 1e9 : 5 * pixel / static_cast<double>(p.sonar.beamwidth);
     const double reach = (std::max)((std::min)(static_cast<double>(p.sonar.range), sharp), 1.3 * p.chip);
-    const double lead = p.targets.empty() ? 0.5 : p.targets.front().across;
+    const double lead = p.targets.empty() ? 0.5 : std::clamp(p.targets.front().across, 0.05, 1.0);
     // The slant range to the target is anything that the sonar's range allows. The altitude gives it the grazing angle
     // of survey or inspection lines. Unless the water column is to be in view, the target lies beyond the first return.
     const double sine = in::numeric::sin_cos(in::numeric::to_radians(s.logarithmic("survey_grazing_deg", 10, 44))).sine;
