@@ -8183,10 +8183,19 @@ inline void require_finite(const height_range& range) {
             "finite heights that it never leaves (a model without `range()` states none)");
 }
 
-/// The range of floats that are interpolated within a range: rounding may exceed it.
-inline height_range interpolated(const height_range& r) {
+/// The range of floats that are computed within a range: rounding may exceed it.
+inline height_range with_rounding(const height_range& r) {
     const double error = 0x1p-21 * (std::max)(numeric::abs(r.lowest), numeric::abs(r.highest));
     return r.empty() ? r : height_range{r.lowest - error, r.highest + error};
+}
+
+/// @throws invalid_input for sampled heights beyond the range that their model states: their shadows would be cut off
+inline void require_within(const height_range& stated, double lowest, double highest) {
+    const height_range range = with_rounding(stated);
+    if (lowest > highest) return;
+    const double farthest = lowest < range.lowest ? lowest : highest;
+    require(lowest >= range.lowest && highest <= range.highest, "a height of the seabed", farthest,
+            "heights within its range()");
 }
 
 template <class S>
@@ -11358,7 +11367,7 @@ class overhead_geometry {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/overhead/picture.hpp -------------------------------------------------------
-// Overhead pictures: their options, and the functions that draw them. Their bodies are in render.hpp.
+// Overhead pictures: their options, and the functions that draw them. The painter is in render.hpp.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -11414,14 +11423,31 @@ struct visibility {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-// Undefined where a program of the compiled form uses a shadow policy or law of its own without including
-// sonar/overhead/render.hpp.
+// Defined in render.hpp.
+template <class Shadow, class Labels, class Law, depth_precision Depth>
+class overhead_painter;
+
+template <class Shadow, class Labels, class Law, depth_precision Depth>
+auto painter_of(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
+                executor_ref ex) {
+    using painter = overhead_painter<Shadow, Labels, Law, Depth>;
+    static_assert(
+        requires { sizeof(painter); },
+        "a shadow policy, law or depth other than the built-in ones needs #include "
+        "<insonify/sonar/overhead/render.hpp> in the compiled form");
+    return painter(s, rig, options, ex);
+}
+
 template <class Shadow, class Labels, class Law, depth_precision Depth>
 frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
-                    executor_ref ex);
+                    executor_ref ex) {
+    return painter_of(s, rig, options, ex).paint(ex);
+}
 template <class Law, depth_precision Depth>
 visibility see(const scene& s, const overhead& rig, const render_options<shadow::none, labels, Law, Depth>& options,
-               executor_ref ex);
+               executor_ref ex) {
+    return painter_of(s, rig, options, ex).see(ex);
+}
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
@@ -18347,6 +18373,9 @@ class overhead_painter {
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
                      executor_ref ex)
         : scene_(s), materials_(checked_materials(s, options)), view_(rig), options_(options), bottom_(memory_of(ex)) {
+        static_assert(shadow::policy<Shadow>,
+                      "a shadow policy has build(casters, light, bounds, executor) const, which returns an object with "
+                      "test(points, results) const: see shadow/policy.hpp");
         out_.rows.step = 0;
         // The first draw clears it.
         out_.image = image<float>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
@@ -18441,6 +18470,8 @@ class overhead_painter {
             ground = casting_ground(ground, range, view_.world_light(), shadow::radius_of(options_.shadow),
                                     static_cast<double>(options_.reach) * longer_side(view_));
         bottom_.sample(scene_.seabed, rig.position, ground, spacing, ex);
+        seabed::detail::require_within(range, static_cast<double>(bottom_.lowest()),
+                                       static_cast<double>(bottom_.highest()));
         const seabed::heightfield& field = bottom_.field();
         out_.stats.seabed_samples = field.heights.size();
         out_.stats.cell = spacing;
@@ -18546,20 +18577,6 @@ class overhead_painter {
     sampled_bottom bottom_;
     dynamic_array<surface> surfaces_;  ///< the seabed, if there is one, and the targets, as they are drawn
 };
-
-template <class Shadow, class Labels, class Law, depth_precision Depth>
-frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
-                    executor_ref ex) {
-    static_assert(shadow::policy<Shadow>,
-                  "a shadow policy has build(casters, light, bounds, executor) const, which returns an object with "
-                  "test(points, results) const: see shadow/policy.hpp");
-    return overhead_painter<Shadow, Labels, Law, Depth>(s, rig, options, ex).paint(ex);
-}
-template <class Law, depth_precision Depth>
-visibility see(const scene& s, const overhead& rig, const render_options<shadow::none, labels, Law, Depth>& options,
-               executor_ref ex) {
-    return overhead_painter<shadow::none, labels, Law, Depth>(s, rig, options, ex).see(ex);
-}
 
 }  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
@@ -22809,7 +22826,7 @@ class detailed_sampler {
     /// Catmull-Rom's negative weights add up to 1/8 at most: interpolated rows overshoot the range by 1/8 at either
     /// end, and columns overshoot the resulting 5/4 of the range by 1/8 again.
     height_range range() const {
-        const height_range field = detail::interpolated(field_->prepare().range());
+        const height_range field = detail::with_rounding(field_->prepare().range());
         const double over = 0.2813 * (field.highest - field.lowest) + surface_.upper_bound();
         return field.empty() ? field : height_range{field.lowest - over, field.highest + over};
     }
@@ -23133,14 +23150,14 @@ inline height_range range_after(const raise& e, const height_range& ground) {
     return added(ground, static_cast<double>(e.height), static_cast<double>(e.height));
 }
 inline height_range range_after(const flatten& e, const height_range& ground) {
-    return interpolated(including(ground, static_cast<double>(e.level)));
+    return with_rounding(including(ground, static_cast<double>(e.level)));
 }
 /// Means stay within the range.
 inline height_range range_after(const smooth&, const height_range& ground) {
-    return interpolated(ground);
+    return with_rounding(ground);
 }
 inline height_range range_after(const ramp& e, const height_range& ground) {
-    return interpolated(
+    return with_rounding(
         including(including(ground, static_cast<double>(e.from_height)), static_cast<double>(e.to_height)));
 }
 inline height_range range_after(const stamp& e, const height_range& ground) {
@@ -24382,7 +24399,7 @@ struct record_options {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/recording.hpp ----------------------------------------------------
-// Side-scan pictures: the functions that record them. Their bodies are in record.hpp, which is included below in the
+// Side-scan pictures: the functions that record them. The recorder is in record.hpp, which is included below in the
 // header-only form.
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -24392,9 +24409,19 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
+// Defined in record.hpp.
+template <class Labels, class Law>
+class recorder;
+
 template <class Labels, class Law>
 frame<Labels> record_pings(const scene& s, std::span<const ping> track, const range_bins& window,
-                           const erased_options<Labels, Law>& options, executor_ref ex);
+                           const erased_options<Labels, Law>& options, executor_ref ex) {
+    static_assert(
+        requires { sizeof(recorder<Labels, Law>); },
+        "a law other than the built-in ones needs #include <insonify/sonar/side_scan/record.hpp> in the "
+        "compiled form");
+    return recorder<Labels, Law>(s, track, window, options, ex).record(ex);
+}
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
@@ -26049,25 +26076,8 @@ INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/record.hpp -------------------------------------------------------
 // Side-scan pictures: pings by ranges, with the water column, the first return, layover and shadows, and labels for
-// every bin.
+// every bin. Laws of your own need this header in the compiled form.
 
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace detail::inline INSONIFY_FLAGS {
-
-template <class Labels, class Law>
-frame<Labels> record_pings(const scene& s, std::span<const ping> track, const range_bins& window,
-                           const erased_options<Labels, Law>& options, executor_ref ex) {
-    return recorder<Labels, Law>(s, track, window, options, ex).record(ex);
-}
-
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/swath.hpp --------------------------------------------------------
 // Mirrors, flips and joins pictures: both sides of a track in one.
@@ -26903,6 +26913,8 @@ class scene_occlusion {
         grid.band_limited = true;
         const seabed::heightfield field = seabed::sample(s.seabed, grid, ex);
         all.push_back({seabed::tessellate(field, ex), around_centre({glm::dmat3(1), glm::dvec3(field.origin, 0)})});
+        const bounding_box& box = all.back().shape.box();
+        seabed::detail::require_within(range, box.lower.z, box.upper.z);
         return all;
     }
 

@@ -49,7 +49,7 @@ NO_ARITHMETIC = {
     "core/image.hpp", "core/image_view.hpp", "core/detail/int128.hpp", "core/detail/portable.hpp", "core/context.hpp", "core/detail/block_pool.hpp",
     "core/thread_pool.hpp", "core/detail/array_bytes.hpp", "core/detail/dynamic_array.hpp", "core/detail/uninitialized.hpp", "geometry/mesh.hpp", "io/file.hpp", "io/manifest.hpp", "io/png.hpp", "core/detail/file.hpp", "raster/framebuffer.hpp",
     "core/rect.hpp", "raster/draw_options.hpp", "raster/interpolatable.hpp", "seabed/models.hpp", "geometry/shared_mesh.hpp",
-    "testing.hpp", "testing/catch2.hpp", "testing/golden.hpp",
+    "sonar/side_scan/record.hpp", "testing.hpp", "testing/catch2.hpp", "testing/golden.hpp",
 }
 
 MAX_LINES = 400

@@ -54,7 +54,7 @@ class detailed_sampler {
     /// Catmull-Rom's negative weights add up to 1/8 at most: interpolated rows overshoot the range by 1/8 at either
     /// end, and columns overshoot the resulting 5/4 of the range by 1/8 again.
     height_range range() const {
-        const height_range field = detail::interpolated(field_->prepare().range());
+        const height_range field = detail::with_rounding(field_->prepare().range());
         const double over = 0.2813 * (field.highest - field.lowest) + surface_.upper_bound();
         return field.empty() ? field : height_range{field.lowest - over, field.highest + over};
     }

@@ -192,14 +192,14 @@ inline height_range range_after(const raise& e, const height_range& ground) {
     return added(ground, static_cast<double>(e.height), static_cast<double>(e.height));
 }
 inline height_range range_after(const flatten& e, const height_range& ground) {
-    return interpolated(including(ground, static_cast<double>(e.level)));
+    return with_rounding(including(ground, static_cast<double>(e.level)));
 }
 /// Means stay within the range.
 inline height_range range_after(const smooth&, const height_range& ground) {
-    return interpolated(ground);
+    return with_rounding(ground);
 }
 inline height_range range_after(const ramp& e, const height_range& ground) {
-    return interpolated(
+    return with_rounding(
         including(including(ground, static_cast<double>(e.from_height)), static_cast<double>(e.to_height)));
 }
 inline height_range range_after(const stamp& e, const height_range& ground) {

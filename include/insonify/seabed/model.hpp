@@ -183,10 +183,19 @@ inline void require_finite(const height_range& range) {
             "finite heights that it never leaves (a model without `range()` states none)");
 }
 
-/// The range of floats that are interpolated within a range: rounding may exceed it.
-inline height_range interpolated(const height_range& r) {
+/// The range of floats that are computed within a range: rounding may exceed it.
+inline height_range with_rounding(const height_range& r) {
     const double error = 0x1p-21 * (std::max)(numeric::abs(r.lowest), numeric::abs(r.highest));
     return r.empty() ? r : height_range{r.lowest - error, r.highest + error};
+}
+
+/// @throws invalid_input for sampled heights beyond the range that their model states: their shadows would be cut off
+inline void require_within(const height_range& stated, double lowest, double highest) {
+    const height_range range = with_rounding(stated);
+    if (lowest > highest) return;
+    const double farthest = lowest < range.lowest ? lowest : highest;
+    require(lowest >= range.lowest && highest <= range.highest, "a height of the seabed", farthest,
+            "heights within its range()");
 }
 
 template <class S>

@@ -151,6 +151,8 @@ class scene_occlusion {
         grid.band_limited = true;
         const seabed::heightfield field = seabed::sample(s.seabed, grid, ex);
         all.push_back({seabed::tessellate(field, ex), around_centre({glm::dmat3(1), glm::dvec3(field.origin, 0)})});
+        const bounding_box& box = all.back().shape.box();
+        seabed::detail::require_within(range, box.lower.z, box.upper.z);
         return all;
     }
 

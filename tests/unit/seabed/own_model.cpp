@@ -66,6 +66,15 @@ struct endless_slope {
     }
 };
 
+/// A plateau at a level that its range may not hold.
+struct plateau {
+    static constexpr sb::type kind = sb::type::sand;
+    float level = 0;
+    sb::height_range stated;
+    void row(const sb::scanline&, std::span<float> heights) const { std::fill(heights.begin(), heights.end(), level); }
+    sb::height_range range() const { return stated; }
+};
+
 static_assert(sb::model<dunes> && sb::model<stripes> && sb::model<own_ripples> && sb::model<endless_slope>);
 
 const in::overhead rig{.position = {120, -40}, .size = {160, 120}, .grazing = in::literals::operator""_deg(8ull)};
@@ -176,6 +185,27 @@ TEST_CASE("A seabed without a range is drawn in range modes and refused by overh
     s.seabed = endless_slope{};
     CHECK_NOTHROW(in::render(s, in::side_scan{.pings = 4, .range = 20, .bins = 64}));
     CHECK_THROWS_WITH(in::render(s, in::overhead{.size = {8, 8}}), ContainsSubstring("range() of the seabed is inf"));
+}
+
+TEST_CASE("A seabed that leaves the range that it states is refused where shadows depend on it") {
+    const in::shadow::directional_light sun{.elevation = 0.3f};
+    const auto draw = [](const plateau& p) {
+        in::scene s;
+        s.seabed = p;
+        in::render(s, in::overhead{.size = {8, 8}});
+    };
+    const auto occlude = [&](const plateau& p) {
+        in::scene s;
+        s.seabed = p;
+        in::occlusion_of(s, sun, {.box = {{-1, -1, -1}, {1, 1, 1}}});
+    };
+    for (const plateau& beyond : {plateau{0.5f, {-0.2, 0.2}}, plateau{-0.5f, {-0.2, 0.2}}, plateau{0.5f, {}}}) {
+        CHECK_THROWS_WITH(draw(beyond), ContainsSubstring("a height of the seabed is " +
+                                                          std::string(beyond.level < 0 ? "-" : "") + "0.5"));
+        CHECK_THROWS_WITH(occlude(beyond), ContainsSubstring("expected heights within its range()"));
+    }
+    CHECK_NOTHROW(draw({0.3f, {-0.3, 0.3}}));  // float holds 0.3 a little above
+    CHECK_NOTHROW(occlude({0.3f, {-0.3, 0.3}}));
 }
 
 TEST_CASE("`any` shares its model, returns it by type, and keeps it alive for samplers") {

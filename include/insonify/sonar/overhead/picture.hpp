@@ -1,4 +1,4 @@
-// Overhead pictures: their options, and the functions that draw them. Their bodies are in render.hpp.
+// Overhead pictures: their options, and the functions that draw them. The painter is in render.hpp.
 #pragma once
 
 #include <insonify/core/executor.hpp>
@@ -66,14 +66,31 @@ struct visibility {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-// Undefined where a program of the compiled form uses a shadow policy or law of its own without including
-// sonar/overhead/render.hpp.
+// Defined in render.hpp.
+template <class Shadow, class Labels, class Law, depth_precision Depth>
+class overhead_painter;
+
+template <class Shadow, class Labels, class Law, depth_precision Depth>
+auto painter_of(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
+                executor_ref ex) {
+    using painter = overhead_painter<Shadow, Labels, Law, Depth>;
+    static_assert(
+        requires { sizeof(painter); },
+        "a shadow policy, law or depth other than the built-in ones needs #include "
+        "<insonify/sonar/overhead/render.hpp> in the compiled form");
+    return painter(s, rig, options, ex);
+}
+
 template <class Shadow, class Labels, class Law, depth_precision Depth>
 frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
-                    executor_ref ex);
+                    executor_ref ex) {
+    return painter_of(s, rig, options, ex).paint(ex);
+}
 template <class Law, depth_precision Depth>
 visibility see(const scene& s, const overhead& rig, const render_options<shadow::none, labels, Law, Depth>& options,
-               executor_ref ex);
+               executor_ref ex) {
+    return painter_of(s, rig, options, ex).see(ex);
+}
 
 }  // namespace detail::inline INSONIFY_FLAGS
 

@@ -31,6 +31,9 @@ class overhead_painter {
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
                      executor_ref ex)
         : scene_(s), materials_(checked_materials(s, options)), view_(rig), options_(options), bottom_(memory_of(ex)) {
+        static_assert(shadow::policy<Shadow>,
+                      "a shadow policy has build(casters, light, bounds, executor) const, which returns an object with "
+                      "test(points, results) const: see shadow/policy.hpp");
         out_.rows.step = 0;
         // The first draw clears it.
         out_.image = image<float>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
@@ -125,6 +128,8 @@ class overhead_painter {
             ground = casting_ground(ground, range, view_.world_light(), shadow::radius_of(options_.shadow),
                                     static_cast<double>(options_.reach) * longer_side(view_));
         bottom_.sample(scene_.seabed, rig.position, ground, spacing, ex);
+        seabed::detail::require_within(range, static_cast<double>(bottom_.lowest()),
+                                       static_cast<double>(bottom_.highest()));
         const seabed::heightfield& field = bottom_.field();
         out_.stats.seabed_samples = field.heights.size();
         out_.stats.cell = spacing;
@@ -230,20 +235,6 @@ class overhead_painter {
     sampled_bottom bottom_;
     dynamic_array<surface> surfaces_;  ///< the seabed, if there is one, and the targets, as they are drawn
 };
-
-template <class Shadow, class Labels, class Law, depth_precision Depth>
-frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
-                    executor_ref ex) {
-    static_assert(shadow::policy<Shadow>,
-                  "a shadow policy has build(casters, light, bounds, executor) const, which returns an object with "
-                  "test(points, results) const: see shadow/policy.hpp");
-    return overhead_painter<Shadow, Labels, Law, Depth>(s, rig, options, ex).paint(ex);
-}
-template <class Law, depth_precision Depth>
-visibility see(const scene& s, const overhead& rig, const render_options<shadow::none, labels, Law, Depth>& options,
-               executor_ref ex) {
-    return overhead_painter<shadow::none, labels, Law, Depth>(s, rig, options, ex).see(ex);
-}
 
 }  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI

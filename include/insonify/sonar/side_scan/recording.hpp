@@ -1,4 +1,4 @@
-// Side-scan pictures: the functions that record them. Their bodies are in record.hpp, which is included below in the
+// Side-scan pictures: the functions that record them. The recorder is in record.hpp, which is included below in the
 // header-only form.
 #pragma once
 
@@ -19,9 +19,19 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
+// Defined in record.hpp.
+template <class Labels, class Law>
+class recorder;
+
 template <class Labels, class Law>
 frame<Labels> record_pings(const scene& s, std::span<const ping> track, const range_bins& window,
-                           const erased_options<Labels, Law>& options, executor_ref ex);
+                           const erased_options<Labels, Law>& options, executor_ref ex) {
+    static_assert(
+        requires { sizeof(recorder<Labels, Law>); },
+        "a law other than the built-in ones needs #include <insonify/sonar/side_scan/record.hpp> in the "
+        "compiled form");
+    return recorder<Labels, Law>(s, track, window, options, ex).record(ex);
+}
 
 }  // namespace detail::inline INSONIFY_FLAGS
 

@@ -1,0 +1,17 @@
+// In the compiled form, a backscatter law of one's own needs the painter's header.
+// expect: a shadow policy, law or depth other than the built-in ones needs .*sonar/overhead/render.hpp
+#define INSONIFY_COMPILED
+#include <insonify/insonify.hpp>
+#ifndef INSONIFY_COMPILE_FAIL
+#include <insonify/sonar/overhead/render.hpp>
+#endif
+
+namespace in = insonify;
+
+struct even {
+    float operator()(float) const { return 1; }
+};
+
+in::frame<> draw(const in::scene& scene) {
+    return in::render(scene, in::overhead{}, in::render_options<>{}.with(even{}));
+}

@@ -1,0 +1,18 @@
+// In the compiled form, a backscatter law of one's own needs the recorder's header.
+// expect: a law other than the built-in ones needs .*sonar/side_scan/record.hpp
+#define INSONIFY_COMPILED
+#include <insonify/insonify.hpp>
+#include <insonify/sonar/side_scan/recording.hpp>
+#ifndef INSONIFY_COMPILE_FAIL
+#include <insonify/sonar/side_scan/record.hpp>
+#endif
+
+namespace in = insonify;
+
+struct even {
+    float operator()(float) const { return 1; }
+};
+
+in::frame<> record(const in::scene& scene) {
+    return in::render(scene, in::side_scan{}, in::record_options<>{}.with(even{}));
+}
