@@ -42,8 +42,10 @@ sb::heightfield read_raster(const char* path, float scale) {
         throw in::io_error(std::string(path) + ": cannot be read");
     int has_no_data = 0;
     const auto no_data = static_cast<float>(band.GetNoDataValue(&has_no_data));
+    const auto unit = scale * static_cast<float>(band.GetScale()), datum = scale * static_cast<float>(band.GetOffset());
     sb::heightfield field =
-        has_no_data != 0 ? sb::from_image(picture, place[1], scale, no_data) : sb::from_image(picture, place[1], scale);
+        has_no_data != 0 ? sb::from_image(picture, place[1], unit, no_data) : sb::from_image(picture, place[1], unit);
+    for (float& height : field.heights.pixels()) height += datum;
     field.origin = {place[0] + 0.5 * place[1], place[3] - (picture.height() - 0.5) * place[1]};
     return field;
 }

@@ -92,6 +92,15 @@ void describe(const generator::options& o, const generator::shared_inputs& share
     std::fputs(generator::summary_of(o, work, cost, threads).c_str(), o.dry_run ? stdout : stderr);
 }
 
+/// Whether the shards of a set were joined and this one's images are there: a job that was queued again, say.
+bool is_joined(const generator::options& o, const std::filesystem::path& root, const generator::json& config) {
+    if (std::filesystem::exists(root / "shards.json") || !std::filesystem::exists(root / "manifest.csv")) return false;
+    const generator::index_range work = generator::range_of(o.first, o.count, o.shard);
+    for (std::uint64_t i = work.first; i < work.last; ++i)
+        if (generator::fault_of(root, generator::image_id(o, i), config, generator::depth::sizes)) return false;
+    return true;
+}
+
 int generate(const generator::options& o, const generator::shared_inputs& shared, insonify::thread_pool& pool) {
     const std::filesystem::path root = generator::opened(o.out);
     const generator::folder_lock lock(root, o.shard.given ? static_cast<std::int64_t>(o.shard.number) : -1);
@@ -101,6 +110,11 @@ int generate(const generator::options& o, const generator::shared_inputs& shared
     generator::staging into(root, o.shard.given ? "shard" + std::to_string(o.shard.number) : "all");
     const generator::json config = generator::configuration_of(o, shared.inputs());
     generator::pin(root, "config.json", config, into);
+    if (o.shard.given && is_joined(o, root, config)) {
+        std::printf("%s: is joined and has the images of shard %llu\n", o.out.c_str(),
+                    static_cast<unsigned long long>(o.shard.number));
+        return 0;
+    }
     if (o.shard.given)
         generator::pin(root, "shards.json", generator::shards_of(o), into);
     else if (std::filesystem::exists(root / "shards.json"))

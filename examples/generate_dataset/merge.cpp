@@ -34,7 +34,6 @@ std::vector<generator::file> read_image(const fs::path& from, std::uint64_t inde
 
 /// Copies the images that `root` lacks from another folder.
 void copy_missing(const fs::path& root, const fs::path& from, generator::staging& into) {
-    if (!fs::exists(from / "config.json")) throw io_error(from.string() + ": holds no data set");
     for (const char* const name : {"config.json", "shards.json"}) {
         const json theirs = generator::pinned(from, name);
         if (theirs.is_null() && generator::pinned(root, name).is_null()) continue;
@@ -99,6 +98,8 @@ int main(int argc, char** argv) try {
     }
 
     if (folders.empty() && !fs::exists(generator::folder_path(out))) throw io_error(out + ": does not exist");
+    for (const std::string& folder : folders)
+        if (!fs::exists(generator::folder_path(folder) / "config.json")) throw io_error(folder + ": holds no data set");
     const fs::path root = generator::opened(out);
     const generator::folder_lock lock(root, -1);
     std::uint64_t images = 0;

@@ -180,6 +180,9 @@ class Generator(unittest.TestCase):
         run(self.folder / "a", "--preview", program=MERGE)
         (self.folder / "a" / "preview.html").unlink()
         self.assertEqual(digest(self.folder / "whole"), digest(self.folder / "a"))
+        # A job that is queued once more changes nothing.
+        self.assertIn("is joined and has the images of shard 1", run("--out", self.folder / "a", *options, "--shard", "1/2"))
+        self.assertEqual(digest(self.folder / "whole"), digest(self.folder / "a"))
 
     def test_a_killed_run_continues_to_the_same_bytes(self):
         run("--out", self.folder / "whole", *SMALL)
@@ -944,6 +947,8 @@ class Shards(unittest.TestCase):
         text = run(self.folder / "a", *folders[:3], *folders[4:7], program=MERGE, expect=1)
         self.assertIn("2 of 8 images are missing", text)
         self.assertIn("shard 3/8 lacks 1 images, the first is 000000003", text)
+        self.assertIn("no: holds no data set", run(self.folder / "b", folders[0], self.folder / "no", program=MERGE, expect=1))
+        self.assertFalse((self.folder / "b").exists())
         self.assertFalse((self.folder / "a" / "annotations.json").exists())
         image = next((self.folder / "s3" / "images").rglob("*.png"))
         good = image.read_bytes()

@@ -13,6 +13,8 @@ class GDALRasterBand {
     int GetXSize() const;
     int GetYSize() const;
     double GetNoDataValue(int* exists);
+    double GetScale(int* exists = nullptr);
+    double GetOffset(int* exists = nullptr);
     CPLErr RasterIO(GDALRWFlag, int x, int y, int width, int height, void* into, int columns, int rows, GDALDataType,
                     long long pixel_stride, long long row_stride);
 };
