@@ -161,6 +161,15 @@ TEST_CASE("A pool keeps at most 1.5 times its peak use, and frees the oldest blo
     CHECK(pool.kept_bytes() == 0);
 }
 
+TEST_CASE("As many blocks as necessary are freed, in the order of their age") {
+    block_pool pool;
+    void* blocks[4];
+    for (std::size_t i = 0; i < 4; ++i) blocks[i] = pool.allocate((i + 1) * megabyte);  // 15 MB may be kept
+    for (std::size_t i = 0; i < 4; ++i) pool.deallocate(blocks[i], (i + 1) * megabyte);
+    pool.deallocate(pool.allocate(8 * megabyte), 8 * megabyte);
+    CHECK(pool.kept_bytes() == 15 * megabyte);  // 3, 4 and 8
+}
+
 TEST_CASE("An executor may have a memory() of its own") {
     counted_executor ex;
     CHECK(in::render(in::scene{}, in::overhead{.size = {8, 8}}, in::render_options<>{}, ex).image.width() == 8);

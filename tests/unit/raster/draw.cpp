@@ -285,20 +285,25 @@ TEST_CASE("Clipped triangles keep their indices") {
 }
 
 TEST_CASE("The front side follows the winding") {
-    const in::mesh m{{{1, 1, 0}, {1, 6, 0}, {6, 1, 0}}, {}, {{0, 1, 2}}};  // counter-clockwise, y being down
-    in::mesh back = m;
-    back.triangles = {{0, 2, 1}};
+    in::mesh front{{{1, 1, 0}, {1, 6, 0}, {6, 1, 0}}, {}, {}};  // counter-clockwise, y being down
+    front.triangles.assign(19, {0, 1, 2});                      // some fill the lanes, some are left over
+    in::mesh back = front;
+    back.triangles.assign(19, {0, 2, 1});
     const in::isa level = GENERATE(in::isa::scalar, in::isa::baseline, in::isa::avx2);
-    const auto drawn = [&](const in::mesh& mesh, in::cull_mode cull) {
-        in::mesh many = mesh;  // enough to fill the lanes
-        many.triangles.assign(11, mesh.triangles[0]);
-        return total(hits(many, 8, 8, {.cull = cull, .level = level}));
+    const auto drawn = [&](const in::mesh& m, in::cull_mode cull) {
+        in::image<float> depth(8, 8);
+        const in::draw_options<> options{.cull = cull, .load = in::depth_load::clear, .level = level};
+        const in::draw_stats stats = in::draw(m, pixel_space{8, 8}, in::depth_target{depth}, options);
+        CHECK(stats.drawn + stats.culled == 19);
+        CHECK((depth(2, 2) == 0) == (stats.drawn > 0));
+        return stats.drawn;
     };
-    CHECK(drawn(m, in::cull_mode::none) == drawn(back, in::cull_mode::none));
-    CHECK(drawn(m, in::cull_mode::back) > 0);
-    CHECK(drawn(m, in::cull_mode::front) == 0);
+    CHECK(drawn(front, in::cull_mode::none) == 19);
+    CHECK(drawn(back, in::cull_mode::none) == 19);
+    CHECK(drawn(front, in::cull_mode::back) == 19);
+    CHECK(drawn(front, in::cull_mode::front) == 0);
     CHECK(drawn(back, in::cull_mode::back) == 0);
-    CHECK(drawn(back, in::cull_mode::front) > 0);
+    CHECK(drawn(back, in::cull_mode::front) == 19);
 }
 
 TEST_CASE("Empty meshes and pictures of odd sizes are drawn") {

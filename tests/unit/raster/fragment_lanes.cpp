@@ -226,6 +226,44 @@ TEST_CASE("A vertex shader over lanes is used where there are lanes, for depth a
     if (in::best_isa() >= in::isa::avx2) CHECK(lanes == 300);
 }
 
+namespace {
+/// Passes normals on, one vertex at a time or over lanes.
+struct one_normal {
+    auto operator()(const in::vertex& v) const {
+        return in::placed_vertex<glm::vec4>{seen_from_above(v).clip, {v.normal, 0}};
+    }
+};
+struct normals_over_lanes : one_normal {
+    using one_normal::operator();
+    template <class Floats>
+    void operator()(Floats (&clip)[4], Floats* out, const Floats (&position)[3], const Floats (&normal)[3]) const {
+        clip[0] = position[0], clip[1] = position[1], clip[2] = Floats{} + 0.01f, clip[3] = 3 - position[2];
+        out[0] = normal[0], out[1] = normal[1], out[2] = normal[2], out[3] = Floats{};
+    }
+};
+}  // namespace
+
+TEST_CASE("A vertex shader over lanes gets the normals of its vertices") {
+    in::mesh m = rubble();
+    in::random_sequence random(3);
+    for (std::size_t i = 0; i < m.positions.size(); ++i)
+        m.normals.emplace_back(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    const auto drawn = [&](const auto& place) {
+        in::image<float> depth(150, 110), value(150, 110);
+        const auto keep_sum = [&]<int N>(const in::fragment_lanes<N, glm::vec4>& f) {
+            typename in::fragment_lanes<N, glm::vec4>::floats x, y, z;
+            f.interpolate(x, 0);
+            f.interpolate(y, 1);
+            f.interpolate(z, 2);
+            f.store(value, x + 2 * y + 3 * z);
+        };
+        in::draw(m, place, keep_sum, in::framebuffer<void>{depth},
+                 {.keep = in::keep_depth::larger, .load = in::depth_load::clear});
+        return value;
+    };
+    CHECK(drawn(normals_over_lanes{}) == drawn(one_normal{}));
+}
+
 TEST_CASE("A picture of more than 2^16 tiles a side is refused") {
     in::image<float> depth((8 << 16) + 1, 1);
     CHECK_THROWS_AS(in::draw(rubble(), seen_from_above, in::depth_target{depth}, {.tile = 8}), in::invalid_input);
