@@ -92,6 +92,21 @@ TEST_CASE("A wide light is partly shaded by seabed beyond the reach of its centr
           Approx(1 - segment).margin(0.01));
 }
 
+TEST_CASE("A wide light is partly shaded by seabed beside the bounds") {
+    in::seabed::heightfield block = wall();
+    for (int j = 0; j < 41; ++j) block.heights(100, j) = j < 33 ? 0.0f : 4.0f;  // from y = 1.2 to 1.3 on
+    in::scene s;
+    s.seabed = block;
+    const auto shade =
+        in::occlusion_of(s, in::shadow::directional_light{0, std::atan(0.1)}, {{{-3, -1, 0}, {-1, 1, 0.5}}, 0.1, 20},
+                         in::shadow::penumbra{.diameter = 0.1f, .samples = 400});
+    // 8 m behind the block, whose edge is at 1.22 m at the height of the rays.
+    const double depth = (1.22 - 0.95) / 8 / 0.05;
+    const double segment = (std::acos(depth) - depth * std::sqrt(1 - depth * depth)) / in::numeric::pi;
+    CHECK(static_cast<double>(shade.test(std::vector<glm::dvec3>{{-2, 0.95, 0}}).lit[0]) ==
+          Approx(1 - segment).margin(0.02));
+}
+
 TEST_CASE("Points of a level bottom are lit as its picture's pixels are, under a rig that is moved and turned") {
     for (const float distance : {std::numeric_limits<float>::infinity(), 7.0f}) {
         in::overhead rig{.position = {300, -200},
