@@ -1054,7 +1054,7 @@ inline namespace INSONIFY_FLAGS {
 
 /// An image of `fn(pixel)` for every pixel; its pixel type is the result type of `fn`.
 template <class T, class Fn>
-auto map_pixels(image_view<const T> source, Fn&& fn) {
+auto map_pixels(image_view<T> source, Fn&& fn) {
     using result = std::decay_t<decltype(fn(std::declval<const T&>()))>;
     image<result> out(source.width(), source.height(), detail::uninitialized{});
     for (int y = 0; y < source.height(); ++y) {
@@ -2463,7 +2463,7 @@ concept pixel_function = requires(Fn& fn, const Pixel& pixel) {
     { detail::call_pixel(fn, pixel, 0, 0) } -> detail::storable;
 };
 
-/// Column and row of an image's first pixel in a larger image, for filters that depend on the position.
+/// Column and row of an image's first pixel in a larger image, for filters that depend on the position. Within 2^30.
 struct pixel_origin {
     int x = 0, y = 0;
 };
@@ -4372,20 +4372,23 @@ inline namespace INSONIFY_FLAGS {
 
 /// MATLAB's imhist. Pixels are floats in [0, 1], of which NaN is not counted, or codes that mean code / 255 or / 65535.
 /// @throws invalid_input for bins outside 2 to 65536
-template <countable_pixel Pixel, executor_argument E = serial_executor>
-histogram histogram_of(image_view<const Pixel> source, int bins = 256, E&& ex = {}) {
-    detail::require_bins("bins", bins);
-    constexpr bool narrow = std::same_as<Pixel, std::uint8_t>, wide = std::same_as<Pixel, std::uint16_t>;
-    if constexpr (!wide) {
-        if (bins == 256)
-            return {detail::count_bands(source, bins, ex, [] { return detail::code_counter<std::uint8_t>(); })};
+template <class Viewed, executor_argument E = serial_executor>
+    requires countable_pixel<std::remove_const_t<Viewed>> histogram histogram_of(image_view<Viewed> pixels,
+                                                                                 int bins = 256, E&& ex = {}) {
+        using Pixel = std::remove_const_t<Viewed>;
+        detail::require_bins("bins", bins);
+        const image_view<const Pixel> source = pixels;
+        constexpr bool narrow = std::same_as<Pixel, std::uint8_t>, wide = std::same_as<Pixel, std::uint16_t>;
+        if constexpr (!wide) {
+            if (bins == 256)
+                return {detail::count_bands(source, bins, ex, [] { return detail::code_counter<std::uint8_t>(); })};
+        }
+        if constexpr (!narrow) {
+            if (bins == 65536)
+                return {detail::count_bands(source, bins, ex, [] { return detail::code_counter<std::uint16_t>(); })};
+        }
+        return {detail::count_bands(source, bins, ex, [bins] { return detail::bin_counter<Pixel>(bins); })};
     }
-    if constexpr (!narrow) {
-        if (bins == 65536)
-            return {detail::count_bands(source, bins, ex, [] { return detail::code_counter<std::uint16_t>(); })};
-    }
-    return {detail::count_bands(source, bins, ex, [bins] { return detail::bin_counter<Pixel>(bins); })};
-}
 /// The same for an image.
 template <countable_pixel Pixel, executor_argument E = serial_executor>
 histogram histogram_of(const image<Pixel>& source, int bins = 256, E&& ex = {}) {
@@ -4417,8 +4420,9 @@ class match_binned {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a reference that is empty or all NaN, or bins outside 2 to 65536
-    template <countable_pixel Pixel>
-    INSONIFY_MEMBER explicit match_binned(image_view<const Pixel> reference, int bins = 64)
+    template <class Pixel>
+    requires countable_pixel<std::remove_const_t<Pixel>> INSONIFY_MEMBER explicit match_binned(
+        image_view<Pixel> reference, int bins = 64)
         : match_binned(histogram_of(reference, bins)) {}
     template <countable_pixel Pixel>
     INSONIFY_MEMBER explicit match_binned(const image<Pixel>& reference, int bins = 64)
@@ -4430,6 +4434,9 @@ class match_binned {
                         wanted_.counts.size(), "2 to 65536");
         detail::require(wanted_.total() > 0, "number of pixels in the reference", wanted_.total(), "at least 1");
     }
+    /// Moving copies: a filter that was moved from still works.
+    INSONIFY_MEMBER match_binned(const match_binned&) = default;
+    INSONIFY_MEMBER match_binned& operator=(const match_binned&) = default;
 
     template <countable_pixel Pixel, executor_argument E = serial_executor>
     INSONIFY_MEMBER detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {
@@ -4562,18 +4569,20 @@ INSONIFY_FUNCTION distribution distribution_of(image_view<const float> source) {
 inline namespace INSONIFY_FLAGS {
 
 /// Distribution of codes; values are code / 255 or code / 65535.
-template <pixel_code Code, executor_argument E = serial_executor>
-distribution distribution_of(image_view<const Code> source, E&& ex = {}) {
-    const histogram codes = histogram_of(source, (std::numeric_limits<Code>::max)() + 1, ex);
-    distribution result;
-    std::uint64_t up_to = 0;
-    for (std::size_t code = 0; code < codes.counts.size(); ++code) {
-        if (codes.counts[code] == 0) continue;
-        result.values.push_back(dequantize(static_cast<Code>(code)));
-        result.cumulative.push_back(up_to += codes.counts[code]);
+template <class Viewed, executor_argument E = serial_executor>
+    requires pixel_code<std::remove_const_t<Viewed>> distribution distribution_of(image_view<Viewed> source,
+                                                                                  E&& ex = {}) {
+        using Code = std::remove_const_t<Viewed>;
+        const histogram codes = histogram_of(source, (std::numeric_limits<Code>::max)() + 1, ex);
+        distribution result;
+        std::uint64_t up_to = 0;
+        for (std::size_t code = 0; code < codes.counts.size(); ++code) {
+            if (codes.counts[code] == 0) continue;
+            result.values.push_back(dequantize(static_cast<Code>(code)));
+            result.cumulative.push_back(up_to += codes.counts[code]);
+        }
+        return result;
     }
-    return result;
-}
 /// The same for an image.
 template <countable_pixel Pixel>
 distribution distribution_of(const image<Pixel>& source) {
@@ -4675,8 +4684,9 @@ class match_histogram {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a reference without a finite pixel
-    template <countable_pixel Pixel>
-    INSONIFY_MEMBER explicit match_histogram(image_view<const Pixel> reference)
+    template <class Pixel>
+    requires countable_pixel<std::remove_const_t<Pixel>> INSONIFY_MEMBER explicit match_histogram(
+        image_view<Pixel> reference)
         : match_histogram(distribution_of(reference)) {}
     template <countable_pixel Pixel>
     INSONIFY_MEMBER explicit match_histogram(const image<Pixel>& reference) : match_histogram(reference.view()) {}
@@ -4688,6 +4698,9 @@ class match_histogram {
                         reference.values.size(), "that of cumulative");
         reference_ = std::make_shared<const distribution>(std::move(reference));
     }
+    /// Moving copies: a filter that was moved from still works.
+    INSONIFY_MEMBER match_histogram(const match_histogram&) = default;
+    INSONIFY_MEMBER match_histogram& operator=(const match_histogram&) = default;
 
     template <std::same_as<float> Pixel>
     INSONIFY_MEMBER detail::rank_pass pass(image_view<const Pixel> source) const {
@@ -4803,14 +4816,14 @@ class scaled_law {
     deviation scale_;
 };
 
-/// Replaces a pixel where p, uniform in (0, 1], is below the density: by black below half the density, else by white.
+/// Replaces a pixel where p, uniform in (0, 1], is at most the density: by black below half the density, else by white.
 struct struck_pixel {
     template <int N>
     INSONIFY_INLINE void apply(lanes<float, N>& value, const lanes<float, N>& p, const lanes<float, N>& density) const {
         using floats = lanes<float, N>;
         using flags = lanes<std::int32_t, N>;
         const floats struck = p + p < density ? floats{} : floats{} + 1.0f;
-        value = (flags(p < density) & flags(value == value)) != 0 ? struck : value;
+        value = (flags(p <= density) & flags(value == value)) != 0 ? struck : value;
     }
 };
 
@@ -4946,6 +4959,9 @@ void prepare_pass(Pass& pass, const pixel_area& area) {
 /// be `from`.
 template <class From, class To, class Pass, executor E>
 void run_pass(image_view<const From> from, image_view<To> to, const Pass& pass, E& ex, pixel_origin origin) {
+    constexpr int farthest = 1 << 30;
+    require_range("origin.x", origin.x, -farthest, farthest, "within 2^30");
+    require_range("origin.y", origin.y, -farthest, farthest, "within 2^30");
     Pass prepared = pass;
     prepare_pass(prepared, {origin.x, origin.y, from.width(), from.height()});
     const int rows = 65536 / (std::max)(from.width(), 1) + 1;
@@ -5368,13 +5384,13 @@ inline namespace INSONIFY_FLAGS {
 /// filters that counts part of an image only.
 /// @throws invalid_input for a mask of another size
 template <class Pixel>
-image<Pixel> pixels_where(image_view<const std::uint8_t> mask, image_view<const Pixel> source) {
+image<std::remove_const_t<Pixel>> pixels_where(image_view<const std::uint8_t> mask, image_view<Pixel> source) {
     detail::check_size("where", mask.width(), mask.height(), {0, 0, source.width(), source.height()});
     int count = 0;
     for (int y = 0; y < mask.height(); ++y)
         for (const std::uint8_t chosen : mask.row(y)) count += chosen != 0 ? 1 : 0;
-    image<Pixel> result(count, count > 0 ? 1 : 0);
-    Pixel* next = result.pixels().data();
+    image<std::remove_const_t<Pixel>> result(count, count > 0 ? 1 : 0);
+    auto* next = result.pixels().data();
     for (int y = 0; y < mask.height(); ++y)
         for (int x = 0; x < mask.width(); ++x)
             if (mask(x, y) != 0) *next++ = source(x, y);
@@ -8651,7 +8667,7 @@ class cell_hash {
     std::uint64_t key_;
 };
 
-/// Two numbers in [-1, 1) from 64 bits.
+/// Two numbers in [-1, 1], from 32 bits each.
 struct signed_pair {
     float a, b;
     explicit constexpr signed_pair(std::uint64_t bits)
@@ -8664,7 +8680,7 @@ struct lattice {
     double frequency = 1;
     double offset_x = 0, offset_y = 0;
 
-    /// Shifted by its own hash, so that the lattice lines of a sum's layers do not coincide.
+    /// Shifted by its own hash, so that the lattice lines of different octaves do not coincide.
     static lattice shifted(double cell, const cell_hash& hash) {
         const signed_pair shift(hash[0x7FFFFFFF](0x7FFFFFFF));
         return {1 / cell, static_cast<double>(shift.a), static_cast<double>(shift.b)};
@@ -8673,8 +8689,8 @@ struct lattice {
     double v(double y) const { return y * frequency + offset_y; }
 };
 
-/// The nearest length of eight bits. Its multiples are exact, so that nodes at multiples of it are the same in every
-/// row.
+/// Rounds a length, above 0 and finite, to eight significant bits: its multiples are exact in double, so that nodes at
+/// multiples of it are the same in every row.
 inline double rounded_to_eight_bits(double length) {
     double unit = 1;
     while (unit * 256 <= length) unit *= 2;
@@ -10583,6 +10599,7 @@ struct display {
     INSONIFY_TAGGED auto pass() const {
         detail::require_positive("display.white", white);
         detail::require(exponent > 0 && exponent <= 4, "display.exponent", exponent, "above 0, at most 4");
+        detail::require(numeric::is_finite(1 / white), "display.white", white, "from 3e-39, whose inverse is finite");
         return [scale = 1 / white, to = exponent]<std::same_as<float> Pixel>(Pixel intensity, int, int) -> Pixel {
             const float share = intensity * scale;
             if (!(share > 0)) return 0;
@@ -10657,7 +10674,9 @@ struct automatic_display {
             low = quantile(static_cast<double>(black)), high = quantile(1 - static_cast<double>(white));
         return [low, step = high > low ? 1 / (high - low) : 0.0, as = scale]<std::same_as<float> Pixel>(
                    Pixel intensity, int, int) -> Pixel {
-            const double gray = (measure(static_cast<double>(intensity), as) - low) * step;
+            const double above = measure(static_cast<double>(intensity), as) - low;
+            // Where both percentiles are of the same ground, what stands out from it is white.
+            const double gray = step > 0 ? above * step : above > 0 ? 1.0 : 0.0;
             return gray > 0 ? (gray < 1 ? static_cast<float>(gray) : 1.0f) : 0.0f;
         };
     }
@@ -14504,12 +14523,11 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/shadow/detail/blocking.hpp -------------------------------------------------------
 // Whether a triangle blocks the light of a point, decided in doubles: the reference that every faster test reproduces.
 //
-// A triangle blocks a point's ray towards the light if the ray passes through it, edges included, and the point lies
-// behind it by more than rounding can have moved either (2^-40 of the scene's size). There is no bias. Corners are
-// sheared until the ray is upright; then it passes an edge on its left if the edge's ends, as seen from the point, make
-// a determinant that is not negative. For the triangle on the other side the ends change places, which changes the sign
-// of each rounded product and of the sum and nothing else, and a zero counts for both: no light leaks between triangles
-// that share an edge.
+// A triangle blocks a point's ray towards the light if the ray crosses it, edges included, and the point lies behind
+// its plane by more than the rounding error, 2^-40 of the scene's size. There is no bias. Vertices are sheared so that
+// the ray becomes an axis; the signs of three 2 x 2 determinants then say on which side it passes each edge. Two
+// triangles that share an edge compute the same determinant with opposite signs, and zero counts as inside for both: no
+// light leaks through the edge.
 //
 // Based on: Sven Woop, Carsten Benthin, Ingo Wald. Watertight Ray/Triangle Intersection. JCGT 2, 2013.
 
@@ -14722,15 +14740,16 @@ INSONIFY_ARITHMETIC_END
 // cell.
 //
 // A point is in shadow if the surface has a larger u (lit_grid.hpp) somewhere on its ray towards the light. Strips one
-// row wide run along the light, so that no ray leaves its strip. Along each strip the kernel carries two bounds: a
-// lower bound of the largest u on every ray (the minimum over the vertices around the strip at each column), and an
-// upper bound (the maximum). Points below the lower bound are dark, points above the upper bound lit; the few in
-// between are left to an exact test.
+// row wide run along the light, so that no ray leaves its strip. Along each strip the kernel carries two bounds of the
+// largest u on its rays: a lower one, the running maximum over columns of the smallest u around the strip, and an upper
+// one, the running maximum of the largest. Points below the lower bound are dark, points above the upper bound lit; the
+// few in between are left to an exact test.
 //
 // Where all triangles around a strip face the light, u increases along each ray, so that they cannot shade a later
 // point of the same slope. Such columns are left out of the upper bound, or points on lit slopes would be undecided.
 //
-// Based on: Nelson L. Max. Horizon Mapping: Shadows for Bump-Mapped Surfaces. 1988
+// Based on: Nelson L. Max. Horizon Mapping: Shadows for Bump-Mapped Surfaces. The Visual Computer 4,
+// 1988
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -14741,17 +14760,17 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 /// Bounds of the largest u that rays of a strip meet before a column.
 struct horizon_bound {
     float dark_below;  ///< every ray of the strip meets a u of at least this
-    float lit_above;   ///< no ray of the strip meets a u above this
+    float lit_above;   ///< points of the column with a larger u are lit; infinity where u does not rise
 };
 
-/// Computes the bounds of adjacent strips, column by column: neighbours read the same heights.
+/// Computes the bounds of adjacent strips, column by column: neighbours read mostly the same heights.
 struct horizon_kernel {
     static constexpr int max_strips = 64;
 
     const lit_grid& grid;
     const grid_heights& heights;
     int first_row;      ///< of the first strip, in column 0
-    int count, strips;  ///< of these, and of all: multiples of 16
+    int count, strips;  ///< strips of this call, and of the grid; both multiples of 16
     float margin;       ///< of u
     float* bounds;      ///< of the first strip; by column: the lower bound of each strip, then the upper ones
 
@@ -15778,7 +15797,8 @@ struct plane_triangles {
 /// Notes which tiles the triangles of a chunk touch, in order.
 struct tile_assembly_kernel {
     const plane_vertex* vertices;
-    const glm::uvec3* triangles;
+    const mesh_view& mesh;
+    const affine& to_plane;
     std::size_t first, last;
     const plane_tiles& tiles;
     insonify::detail::tile_runs& runs;
@@ -15795,7 +15815,7 @@ struct tile_assembly_kernel {
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
         const plane_triangles<N> t([&](int k, int i) -> const plane_vertex& {
-            return vertices[triangles[start + (std::min)(static_cast<std::size_t>(k), count - 1)][i]];
+            return vertices[mesh.triangles[start + (std::min)(static_cast<std::size_t>(k), count - 1)][i]];
         });
         const glm::dvec2 tile = tiles.tile();
         ints from[2], to[2], outside{};
@@ -15812,7 +15832,11 @@ struct tile_assembly_kernel {
             cells_between<N>(from[axis], to[axis], f, l, last_cell, t.state > 0.0f);
         });
         outside = (outside & ints(t.state == 0.0f)) | ints(t.state == plane_vertex::not_finite) | t.is_behind;
-        const unsigned drawn = ~movemask<N>(outside) & ((2u << (count - 1)) - 1);
+        unsigned drawn = ~movemask<N>(outside) & ((2u << (count - 1)) - 1);
+        for (unsigned cut = drawn & movemask<N>(ints(t.state > 0.0f)); cut != 0; cut &= cut - 1) {
+            const auto k = static_cast<unsigned>(std::countr_zero(cut));
+            if (is_beside_pyramid(mesh.triangles[start + k])) drawn &= ~(1u << k);
+        }
         if (drawn == 0) return;
         const ints first_tile = from[0] | from[1] << 16, last_tile = to[0] | to[1] << 16;
         const auto id = static_cast<std::uint32_t>(start);
@@ -15827,6 +15851,20 @@ struct tile_assembly_kernel {
                      {static_cast<std::uint32_t>(lane(first_tile, k)), static_cast<std::uint32_t>(lane(last_tile, k))},
                      true);
         }
+    }
+
+    /// Whether a triangle that reaches behind a near light lies beyond one side of the pyramid from the light through
+    /// the plane's square: no ray to the light meets it there. The margin covers rounding.
+    INSONIFY_RARE bool is_beside_pyramid(const glm::uvec3& triangle) const {
+        glm::dvec3 p[3];
+        for (int i = 0; i < 3; ++i) p[i] = transform_point(to_plane, glm::dvec3(mesh.positions[triangle[i]]));
+        for (int axis = 0; axis < 2; ++axis)
+            for (const double sign : {-1.0, 1.0})
+                if (std::all_of(p, p + 3, [&](const glm::dvec3& q) {
+                        return sign * q[axis] > q.z + 0x1p-20 * (numeric::abs(q.z) + numeric::abs(q[axis]));
+                    }))
+                    return true;
+        return false;
     }
 };
 
@@ -15852,7 +15890,7 @@ class plane_caster {
         dynamic_array<insonify::detail::tile_runs> chunks((triangles_.size() + grain - 1) / grain);
         bulk_ranges(ex, triangles_.size(), grain, [&](std::size_t first, std::size_t last) {
             insonify::detail::dispatch(
-                tile_assembly_kernel{vertices_.data(), triangles_.data(), first, last, tiles, chunks[first / grain]},
+                tile_assembly_kernel{vertices_.data(), c.mesh, to_plane, first, last, tiles, chunks[first / grain]},
                 level);
         });
         bins_ = insonify::detail::tile_bins(chunks, insonify::detail::tile_grid(tiles.columns, tiles.rows, 0), ex);
@@ -16727,16 +16765,16 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The rectangle, extended towards the light to all ground that can throw a shadow on its points, by at most `longest`
-/// metres along either axis.
+/// The rectangle, extended towards the light to all ground that can throw a shadow on its points.
 ///
-/// On its way to the light, a ray from the lowest point rises above the highest ground within (highest - lowest)
-/// cot(elevation) metres or, if the light is near, within that fraction of the distance to it; beyond, it meets
-/// nothing. For an extended light, the corners of a square around it are tried: the distance is a quotient of linear
-/// functions of the position on the light, so its maximum is in a corner.
+/// A ray from the lowest point to a parallel light is above the highest ground after (highest - lowest) cot(elevation)
+/// metres; to a light nearby, after the fraction (highest - lowest) / (light's height - lowest) of the way. For an
+/// extended light, the corners of a square around it are tried: the distance is a quotient of linear functions of the
+/// position on the light, so its maximum is in a corner.
 /// @param range   heights of the lowest point and of the highest ground
 /// @param light   in the frame of the rectangle; a near one faces the origin
 /// @param radius  of the light over its distance
+/// @param longest  upper bound of the extension along each axis, metres
 inline ground_rect casting_ground(const ground_rect& points, const seabed::height_range& range,
                                   const shadow::any_light& light, double radius, double longest) {
     ground_rect all = points;
@@ -18987,7 +19025,8 @@ struct settings {
     ///
     /// A distance d across a camera ray that leans by psi from the vertical moves the image by d / cos psi on a plane
     /// at that height (Thatcher Ulrich. Rendering Massive Terrains using Chunked Level of Detail Control. SIGGRAPH
-    /// course, 2002). Across a ray of light at an elevation e it moves the shadow on level ground by d / sin e.
+    /// course, 2002). Across a ray of light at an elevation e it moves the shadow on level ground by d / sin e, and by
+    /// d H / (H - h) / sin e where a light at the height H is near and the target is h high.
     /// @param placement  of the target, which is taken as a ball of `radius` metres around its position
     INSONIFY_TAGGED double deviation(const pose& placement, double radius) const {
         const overhead_geometry view(rig);
@@ -18998,7 +19037,7 @@ struct settings {
         const double aside = numeric::square_root(at.x * at.x + at.y * at.y) + size;
         const double lean = numeric::square_root(1 + aside * aside / (below * below));
         const double seen = silhouette_error * view.ground_sampling() * below / altitude / lean;
-        const double cast = shadow_edge_error * view.ground_sampling() * view.light().to_light().z;
+        const double cast = shadow_edge_error * view.ground_sampling() * across_light(view, at, size);
         const bool has_shadow = !std::same_as<Shadow, insonify::shadow::none>;
         return (has_shadow ? (std::min)(seen, cast) : seen) / static_cast<double>(placement.scale);
     }
@@ -19025,6 +19064,17 @@ struct settings {
     }
 
   private:
+    /// A distance across the ray of light that grazes a ball's far side, over that by which it moves the shadow's edge.
+    INSONIFY_TAGGED static double across_light(const overhead_geometry& view, const glm::dvec3& centre, double radius) {
+        if (!view.has_near_light()) return view.light().to_light().z;
+        const glm::dvec3 light = view.light_position();
+        const double above = (std::max)(light.z - centre.z - radius, 0.05 * light.z);
+        const double x = centre.x - light.x, y = centre.y - light.y;
+        const double beside = numeric::square_root(x * x + y * y) + radius;
+        const double sine = above / numeric::square_root(beside * beside + above * above);
+        return sine * above / light.z;
+    }
+
     template <class Shape>
     INSONIFY_MEMBER static Shape with_segments(Shape shape, double deviation) {
         shape.segments = segments_for(shape, static_cast<float>(deviation));
@@ -22015,7 +22065,7 @@ struct polygon {
 inline namespace INSONIFY_FLAGS {
 
 /// Where an image, placed in the world like a heightfield, is above 1/2; interpolated between pixels and extended from
-/// its edges. A step from 0 to 1 between two pixels counts as a border of one spacing in width.
+/// its edges.
 struct stencil {
     image<float> coverage;
     glm::dvec2 origin{0.0, 0.0};  ///< of pixel (0, 0), metres
@@ -22032,8 +22082,8 @@ namespace detail::inline INSONIFY_FLAGS {
 /// Distance from p to the segment from a to b, squared.
 inline double square_distance(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
     const glm::dvec2 ab = b - a, ap = p - a;
-    const double length = ab.x * ab.x + ab.y * ab.y;
-    const double t = length > 0 ? (std::min)((std::max)((ap.x * ab.x + ap.y * ab.y) / length, 0.0), 1.0) : 0.0;
+    const double square = ab.x * ab.x + ab.y * ab.y;
+    const double t = square > 0 ? (std::min)((std::max)((ap.x * ab.x + ap.y * ab.y) / square, 0.0), 1.0) : 0.0;
     const double x = ap.x - t * ab.x, y = ap.y - t * ab.y;
     return x * x + y * y;
 }
@@ -22062,22 +22112,69 @@ inline double signed_distance(const polygon& shape, const glm::dvec2& p) {
     const double distance = numeric::square_root(square);
     return odd ? distance : -distance;
 }
+/// Signed distances of a stencil's pixels from its border, in pixels. Each pixel takes the nearest of the points where
+/// the border crosses the lattice that its neighbours have found, in a sweep down and one up: Per-Erik Danielsson.
+/// Euclidean Distance Mapping. Computer Graphics and Image Processing 14, 1980. Far away, errors are a fraction of a
+/// pixel.
+inline image<float> border_distances(const image<float>& coverage) {
+    constexpr float nowhere = 1e15f;
+    const int width = coverage.width(), height = coverage.height();
+    image<glm::vec2> crossing(width, height, glm::vec2(nowhere));
+    const auto square_to = [](const glm::vec2& c, int x, int y) {
+        const float right = c.x - static_cast<float>(x), up = c.y - static_cast<float>(y);
+        return right * right + up * up;
+    };
+    const auto offer = [&](const glm::vec2& c, int x, int y) {
+        if (square_to(c, x, y) < square_to(crossing(x, y), x, y)) crossing(x, y) = c;
+    };
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            for (const auto& [i, j] : {std::pair(x + 1, y), std::pair(x, y + 1)}) {
+                if (i == width || j == height) continue;
+                const float here = coverage(x, y), there = coverage(i, j);
+                if ((here > 0.5f) == (there > 0.5f)) continue;
+                const float t = (0.5f - here) / (there - here);
+                const glm::vec2 c(static_cast<float>(x) + t * static_cast<float>(i - x),
+                                  static_cast<float>(y) + t * static_cast<float>(j - y));
+                offer(c, x, y);
+                offer(c, i, j);
+            }
+    const auto take = [&](int x, int y, int i, int j) {
+        if (i >= 0 && i < width && j >= 0 && j < height) offer(crossing(i, j), x, y);
+    };
+    for (const int step : {1, -1})
+        for (int n = 0, y = step > 0 ? 0 : height - 1; n < height; ++n, y += step) {
+            for (int x = 0; x < width; ++x)
+                for (const auto& [i, j] : {std::pair(x - 1, y), std::pair(x - 1, y - step), std::pair(x, y - step),
+                                           std::pair(x + 1, y - step)})
+                    take(x, y, i, j);
+            for (int x = width - 1; x >= 0; --x) take(x, y, x + 1, y);
+        }
+    image<float> distances(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const float distance = numeric::square_root(square_to(crossing(x, y), x, y));
+            distances(x, y) = coverage(x, y) > 0.5f ? distance : -distance;
+        }
+    return distances;
+}
+/// @param s  a stencil whose pixels are distances from its border, see border_distances
 inline double signed_distance(const stencil& s, const glm::dvec2& p) {
-    struct place {
-        int cell, next;
-        double across;
+    struct sample {
+        int lower, upper;
+        double fraction;
     };
     const auto axis = [](double u, int pixels) {
         const double clamped = u > 0 ? (std::min)(u, static_cast<double>(pixels - 1)) : 0.0;
         const int cell = (std::min)(static_cast<int>(clamped), (std::max)(pixels - 2, 0));
-        return place{cell, (std::min)(cell + 1, pixels - 1), clamped - cell};
+        return sample{cell, (std::min)(cell + 1, pixels - 1), clamped - cell};
     };
     const auto [x, right, u] = axis((p.x - s.origin.x) / s.spacing, s.coverage.width());
     const auto [y, up, v] = axis((p.y - s.origin.y) / s.spacing, s.coverage.height());
     const auto value = [&](int i, int j) { return static_cast<double>(s.coverage(i, j)); };
     const double low = value(x, y) + u * (value(right, y) - value(x, y));
     const double high = value(x, up) + u * (value(right, up) - value(x, up));
-    return (low + v * (high - low) - 0.5) * s.spacing;
+    return (low + v * (high - low)) * s.spacing;
 }
 
 inline void validate(const disc& d) {
@@ -22085,7 +22182,8 @@ inline void validate(const disc& d) {
     require_position("disc.centre", d.centre);
 }
 inline void validate_points(const std::vector<glm::dvec2>& points, const char* name, std::size_t min_count) {
-    require(points.size() >= min_count, std::string(name) + ".size()", points.size(), "more points");
+    require(points.size() >= min_count, std::string(name) + ".size()", points.size(),
+            "at least " + std::to_string(min_count));
     for (const glm::dvec2& p : points) require_position(name, p);
 }
 inline void validate(const band& b) {
@@ -22124,10 +22222,11 @@ class outline {
                 if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(shape)>, patches>) validate(shape);
             },
             shape_);
+        if (auto* const s = std::get_if<stencil>(&shape_)) s->coverage = border_distances(s->coverage);
     }
 
-    /// Writes how far inside the area the positions of a stretch lie, metres, negative outside.
-    void margins(const stretch& part, stretch_values& values) const {
+    /// Writes the signed distances of a stretch's positions, metres, positive inside.
+    void signed_distances(const stretch& part, stretch_values& values) const {
         values.fill(0);
         noise_.add(part, values);
         std::visit(
@@ -22596,7 +22695,7 @@ void lay_over(const outline& where, const border& edge, const Layer& layer, cons
     const std::size_t count = heights.size();
     const stretch part(line, count);
     stretch_values across;
-    where.margins(part, across);
+    where.signed_distances(part, across);
     // Away from borders only one of the two is evaluated.
     sample_range above{count}, under{count};
     for (std::size_t i = 0; i < count; ++i) {
@@ -22899,7 +22998,6 @@ namespace detail::inline INSONIFY_FLAGS {
 inline void validate(const moat& m) {
     validate_points(m.outline, "moat.outline", 3);
     require(m.outline.size() <= 4096, "moat.outline.size()", m.outline.size(), "at most 4096");
-    for (const glm::dvec2& p : m.outline) require_position("moat.outline", p);
     require_metres("moat.depth", m.depth);
     require_positive_metres("moat.width", m.width);
     require_metres("moat.mound", m.mound);
@@ -26608,6 +26706,15 @@ template <across_track Axis, class PingAt>
 void apply_tone(frame<labels>& r, const PingAt& ping_at, const side_scan_rig<Axis>& rig, const bottom_tone& tone,
                 executor_ref ex) {
     require(r.image.width() == rig.bins, "rig.bins", rig.bins, "the recording's width");
+    const bool are_labelled =
+        r.labels.seabed.width() == r.image.width() && r.labels.seabed.height() == r.image.height();
+    require(are_labelled, "labels.seabed.size()", r.labels.seabed.size(), "that of the image");
+    for (int y = 0; y < r.image.height(); ++y) {
+        const ping at = ping_at(r.rows.first + std::int64_t{r.rows.step} * y);
+        validate(at);
+        require_range("ping.position.x", at.position.x, -1e12, 1e12, "within 10^12 metres");
+        require_range("ping.position.y", at.position.y, -1e12, 1e12, "within 10^12 metres");
+    }
     const tone_sampler level(tone);
     if (tone.is_none()) return;
     const double first = static_cast<double>(rig.first_range), bin = rig.bin();
@@ -26648,11 +26755,16 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 /// Targets and the water column stay.
 ///
 /// @param r    a result of `render` with this rig, before noise and speckle
-/// @throws invalid_input for a rig or a parameter out of its range, or a recording of another width
+/// @throws invalid_input for a rig or a parameter out of its range, or a recording of another width, without labels or
+///         with pings beyond 2^31
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
-    const auto ping_at = [&](std::int64_t number) { return ping_of(rig, static_cast<int>(number)); };
+    const auto ping_at = [&](std::int64_t number) {
+        detail::require_range("rows.first", number, -(std::int64_t{1} << 31), (std::int64_t{1} << 31) - 1,
+                              "rows of pings within 2^31");
+        return ping_of(rig, static_cast<int>(number));
+    };
     detail::apply_tone(r, ping_at, rig, tone, executor_ref(ex));
     return r;
 }
@@ -26661,8 +26773,8 @@ frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const b
 ///
 /// @param r      a result of `record` with this track and rig, before noise and speckle
 /// @param track  the pings, numbered from 0 as in `r.rows`
-/// @throws invalid_input for a rig or a parameter out of its range, a recording of another width, or one with more
-/// pings
+/// @throws invalid_input for a rig, a ping or a parameter out of its range, a recording of another width or without
+///         labels, or one with more pings
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, std::span<const ping> track, const side_scan_rig<Axis>& rig,
                         const bottom_tone& tone, E&& ex = {}) {
@@ -27312,7 +27424,7 @@ class water_law {
   private:
     double range(int x) const { return static_cast<double>(w_.first_range) + (x + 0.5) * static_cast<double>(w_.bin); }
     float noise_at(double range) const {
-        if (w_.noise == 0) return 0;
+        if (w_.noise == 0 || !(range > 0)) return 0;
         const double over = range / static_cast<double>(w_.noise_range);
         const double gain = numeric::pow(over, 0.1 * static_cast<double>(w_.spreading)) *
                             from_decibels(0.002 * static_cast<double>(w_.absorption_per_km) *

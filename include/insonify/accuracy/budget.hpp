@@ -54,7 +54,8 @@ struct settings {
     ///
     /// A distance d across a camera ray that leans by psi from the vertical moves the image by d / cos psi on a plane
     /// at that height (Thatcher Ulrich. Rendering Massive Terrains using Chunked Level of Detail Control. SIGGRAPH
-    /// course, 2002). Across a ray of light at an elevation e it moves the shadow on level ground by d / sin e.
+    /// course, 2002). Across a ray of light at an elevation e it moves the shadow on level ground by d / sin e, and by
+    /// d H / (H - h) / sin e where a light at the height H is near and the target is h high.
     /// @param placement  of the target, which is taken as a ball of `radius` metres around its position
     INSONIFY_TAGGED double deviation(const pose& placement, double radius) const {
         const overhead_geometry view(rig);
@@ -65,7 +66,7 @@ struct settings {
         const double aside = numeric::square_root(at.x * at.x + at.y * at.y) + size;
         const double lean = numeric::square_root(1 + aside * aside / (below * below));
         const double seen = silhouette_error * view.ground_sampling() * below / altitude / lean;
-        const double cast = shadow_edge_error * view.ground_sampling() * view.light().to_light().z;
+        const double cast = shadow_edge_error * view.ground_sampling() * across_light(view, at, size);
         const bool has_shadow = !std::same_as<Shadow, insonify::shadow::none>;
         return (has_shadow ? (std::min)(seen, cast) : seen) / static_cast<double>(placement.scale);
     }
@@ -92,6 +93,17 @@ struct settings {
     }
 
   private:
+    /// A distance across the ray of light that grazes a ball's far side, over that by which it moves the shadow's edge.
+    INSONIFY_TAGGED static double across_light(const overhead_geometry& view, const glm::dvec3& centre, double radius) {
+        if (!view.has_near_light()) return view.light().to_light().z;
+        const glm::dvec3 light = view.light_position();
+        const double above = (std::max)(light.z - centre.z - radius, 0.05 * light.z);
+        const double x = centre.x - light.x, y = centre.y - light.y;
+        const double beside = numeric::square_root(x * x + y * y) + radius;
+        const double sine = above / numeric::square_root(beside * beside + above * above);
+        return sine * above / light.z;
+    }
+
     template <class Shape>
     INSONIFY_MEMBER static Shape with_segments(Shape shape, double deviation) {
         shape.segments = segments_for(shape, static_cast<float>(deviation));

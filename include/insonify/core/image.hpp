@@ -130,7 +130,7 @@ inline namespace INSONIFY_FLAGS {
 
 /// An image of `fn(pixel)` for every pixel; its pixel type is the result type of `fn`.
 template <class T, class Fn>
-auto map_pixels(image_view<const T> source, Fn&& fn) {
+auto map_pixels(image_view<T> source, Fn&& fn) {
     using result = std::decay_t<decltype(fn(std::declval<const T&>()))>;
     image<result> out(source.width(), source.height(), detail::uninitialized{});
     for (int y = 0; y < source.height(); ++y) {

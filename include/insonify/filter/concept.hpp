@@ -49,7 +49,7 @@ concept pixel_function = requires(Fn& fn, const Pixel& pixel) {
     { detail::call_pixel(fn, pixel, 0, 0) } -> detail::storable;
 };
 
-/// Column and row of an image's first pixel in a larger image, for filters that depend on the position.
+/// Column and row of an image's first pixel in a larger image, for filters that depend on the position. Within 2^30.
 struct pixel_origin {
     int x = 0, y = 0;
 };

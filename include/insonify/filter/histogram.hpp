@@ -58,20 +58,23 @@ inline namespace INSONIFY_FLAGS {
 
 /// MATLAB's imhist. Pixels are floats in [0, 1], of which NaN is not counted, or codes that mean code / 255 or / 65535.
 /// @throws invalid_input for bins outside 2 to 65536
-template <countable_pixel Pixel, executor_argument E = serial_executor>
-histogram histogram_of(image_view<const Pixel> source, int bins = 256, E&& ex = {}) {
-    detail::require_bins("bins", bins);
-    constexpr bool narrow = std::same_as<Pixel, std::uint8_t>, wide = std::same_as<Pixel, std::uint16_t>;
-    if constexpr (!wide) {
-        if (bins == 256)
-            return {detail::count_bands(source, bins, ex, [] { return detail::code_counter<std::uint8_t>(); })};
+template <class Viewed, executor_argument E = serial_executor>
+    requires countable_pixel<std::remove_const_t<Viewed>> histogram histogram_of(image_view<Viewed> pixels,
+                                                                                 int bins = 256, E&& ex = {}) {
+        using Pixel = std::remove_const_t<Viewed>;
+        detail::require_bins("bins", bins);
+        const image_view<const Pixel> source = pixels;
+        constexpr bool narrow = std::same_as<Pixel, std::uint8_t>, wide = std::same_as<Pixel, std::uint16_t>;
+        if constexpr (!wide) {
+            if (bins == 256)
+                return {detail::count_bands(source, bins, ex, [] { return detail::code_counter<std::uint8_t>(); })};
+        }
+        if constexpr (!narrow) {
+            if (bins == 65536)
+                return {detail::count_bands(source, bins, ex, [] { return detail::code_counter<std::uint16_t>(); })};
+        }
+        return {detail::count_bands(source, bins, ex, [bins] { return detail::bin_counter<Pixel>(bins); })};
     }
-    if constexpr (!narrow) {
-        if (bins == 65536)
-            return {detail::count_bands(source, bins, ex, [] { return detail::code_counter<std::uint16_t>(); })};
-    }
-    return {detail::count_bands(source, bins, ex, [bins] { return detail::bin_counter<Pixel>(bins); })};
-}
 /// The same for an image.
 template <countable_pixel Pixel, executor_argument E = serial_executor>
 histogram histogram_of(const image<Pixel>& source, int bins = 256, E&& ex = {}) {
@@ -103,8 +106,9 @@ class match_binned {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a reference that is empty or all NaN, or bins outside 2 to 65536
-    template <countable_pixel Pixel>
-    INSONIFY_MEMBER explicit match_binned(image_view<const Pixel> reference, int bins = 64)
+    template <class Pixel>
+    requires countable_pixel<std::remove_const_t<Pixel>> INSONIFY_MEMBER explicit match_binned(
+        image_view<Pixel> reference, int bins = 64)
         : match_binned(histogram_of(reference, bins)) {}
     template <countable_pixel Pixel>
     INSONIFY_MEMBER explicit match_binned(const image<Pixel>& reference, int bins = 64)
@@ -116,6 +120,9 @@ class match_binned {
                         wanted_.counts.size(), "2 to 65536");
         detail::require(wanted_.total() > 0, "number of pixels in the reference", wanted_.total(), "at least 1");
     }
+    /// Moving copies: a filter that was moved from still works.
+    INSONIFY_MEMBER match_binned(const match_binned&) = default;
+    INSONIFY_MEMBER match_binned& operator=(const match_binned&) = default;
 
     template <countable_pixel Pixel, executor_argument E = serial_executor>
     INSONIFY_MEMBER detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {

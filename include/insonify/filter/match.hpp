@@ -63,18 +63,20 @@ INSONIFY_FUNCTION distribution distribution_of(image_view<const float> source) {
 inline namespace INSONIFY_FLAGS {
 
 /// Distribution of codes; values are code / 255 or code / 65535.
-template <pixel_code Code, executor_argument E = serial_executor>
-distribution distribution_of(image_view<const Code> source, E&& ex = {}) {
-    const histogram codes = histogram_of(source, (std::numeric_limits<Code>::max)() + 1, ex);
-    distribution result;
-    std::uint64_t up_to = 0;
-    for (std::size_t code = 0; code < codes.counts.size(); ++code) {
-        if (codes.counts[code] == 0) continue;
-        result.values.push_back(dequantize(static_cast<Code>(code)));
-        result.cumulative.push_back(up_to += codes.counts[code]);
+template <class Viewed, executor_argument E = serial_executor>
+    requires pixel_code<std::remove_const_t<Viewed>> distribution distribution_of(image_view<Viewed> source,
+                                                                                  E&& ex = {}) {
+        using Code = std::remove_const_t<Viewed>;
+        const histogram codes = histogram_of(source, (std::numeric_limits<Code>::max)() + 1, ex);
+        distribution result;
+        std::uint64_t up_to = 0;
+        for (std::size_t code = 0; code < codes.counts.size(); ++code) {
+            if (codes.counts[code] == 0) continue;
+            result.values.push_back(dequantize(static_cast<Code>(code)));
+            result.cumulative.push_back(up_to += codes.counts[code]);
+        }
+        return result;
     }
-    return result;
-}
 /// The same for an image.
 template <countable_pixel Pixel>
 distribution distribution_of(const image<Pixel>& source) {
@@ -176,8 +178,9 @@ class match_histogram {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a reference without a finite pixel
-    template <countable_pixel Pixel>
-    INSONIFY_MEMBER explicit match_histogram(image_view<const Pixel> reference)
+    template <class Pixel>
+    requires countable_pixel<std::remove_const_t<Pixel>> INSONIFY_MEMBER explicit match_histogram(
+        image_view<Pixel> reference)
         : match_histogram(distribution_of(reference)) {}
     template <countable_pixel Pixel>
     INSONIFY_MEMBER explicit match_histogram(const image<Pixel>& reference) : match_histogram(reference.view()) {}
@@ -189,6 +192,9 @@ class match_histogram {
                         reference.values.size(), "that of cumulative");
         reference_ = std::make_shared<const distribution>(std::move(reference));
     }
+    /// Moving copies: a filter that was moved from still works.
+    INSONIFY_MEMBER match_histogram(const match_histogram&) = default;
+    INSONIFY_MEMBER match_histogram& operator=(const match_histogram&) = default;
 
     template <std::same_as<float> Pixel>
     INSONIFY_MEMBER detail::rank_pass pass(image_view<const Pixel> source) const {

@@ -92,14 +92,14 @@ class scaled_law {
     deviation scale_;
 };
 
-/// Replaces a pixel where p, uniform in (0, 1], is below the density: by black below half the density, else by white.
+/// Replaces a pixel where p, uniform in (0, 1], is at most the density: by black below half the density, else by white.
 struct struck_pixel {
     template <int N>
     INSONIFY_INLINE void apply(lanes<float, N>& value, const lanes<float, N>& p, const lanes<float, N>& density) const {
         using floats = lanes<float, N>;
         using flags = lanes<std::int32_t, N>;
         const floats struck = p + p < density ? floats{} : floats{} + 1.0f;
-        value = (flags(p < density) & flags(value == value)) != 0 ? struck : value;
+        value = (flags(p <= density) & flags(value == value)) != 0 ? struck : value;
     }
 };
 

@@ -48,13 +48,13 @@ inline namespace INSONIFY_FLAGS {
 /// filters that counts part of an image only.
 /// @throws invalid_input for a mask of another size
 template <class Pixel>
-image<Pixel> pixels_where(image_view<const std::uint8_t> mask, image_view<const Pixel> source) {
+image<std::remove_const_t<Pixel>> pixels_where(image_view<const std::uint8_t> mask, image_view<Pixel> source) {
     detail::check_size("where", mask.width(), mask.height(), {0, 0, source.width(), source.height()});
     int count = 0;
     for (int y = 0; y < mask.height(); ++y)
         for (const std::uint8_t chosen : mask.row(y)) count += chosen != 0 ? 1 : 0;
-    image<Pixel> result(count, count > 0 ? 1 : 0);
-    Pixel* next = result.pixels().data();
+    image<std::remove_const_t<Pixel>> result(count, count > 0 ? 1 : 0);
+    auto* next = result.pixels().data();
     for (int y = 0; y < mask.height(); ++y)
         for (int x = 0; x < mask.width(); ++x)
             if (mask(x, y) != 0) *next++ = source(x, y);

@@ -70,7 +70,7 @@ void lay_over(const outline& where, const border& edge, const Layer& layer, cons
     const std::size_t count = heights.size();
     const stretch part(line, count);
     stretch_values across;
-    where.margins(part, across);
+    where.signed_distances(part, across);
     // Away from borders only one of the two is evaluated.
     sample_range above{count}, under{count};
     for (std::size_t i = 0; i < count; ++i) {

@@ -36,7 +36,6 @@ namespace detail::inline INSONIFY_FLAGS {
 inline void validate(const moat& m) {
     validate_points(m.outline, "moat.outline", 3);
     require(m.outline.size() <= 4096, "moat.outline.size()", m.outline.size(), "at most 4096");
-    for (const glm::dvec2& p : m.outline) require_position("moat.outline", p);
     require_metres("moat.depth", m.depth);
     require_positive_metres("moat.width", m.width);
     require_metres("moat.mound", m.mound);

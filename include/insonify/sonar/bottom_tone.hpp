@@ -106,6 +106,15 @@ template <across_track Axis, class PingAt>
 void apply_tone(frame<labels>& r, const PingAt& ping_at, const side_scan_rig<Axis>& rig, const bottom_tone& tone,
                 executor_ref ex) {
     require(r.image.width() == rig.bins, "rig.bins", rig.bins, "the recording's width");
+    const bool are_labelled =
+        r.labels.seabed.width() == r.image.width() && r.labels.seabed.height() == r.image.height();
+    require(are_labelled, "labels.seabed.size()", r.labels.seabed.size(), "that of the image");
+    for (int y = 0; y < r.image.height(); ++y) {
+        const ping at = ping_at(r.rows.first + std::int64_t{r.rows.step} * y);
+        validate(at);
+        require_range("ping.position.x", at.position.x, -1e12, 1e12, "within 10^12 metres");
+        require_range("ping.position.y", at.position.y, -1e12, 1e12, "within 10^12 metres");
+    }
     const tone_sampler level(tone);
     if (tone.is_none()) return;
     const double first = static_cast<double>(rig.first_range), bin = rig.bin();
@@ -146,11 +155,16 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 /// Targets and the water column stay.
 ///
 /// @param r    a result of `render` with this rig, before noise and speckle
-/// @throws invalid_input for a rig or a parameter out of its range, or a recording of another width
+/// @throws invalid_input for a rig or a parameter out of its range, or a recording of another width, without labels or
+///         with pings beyond 2^31
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
-    const auto ping_at = [&](std::int64_t number) { return ping_of(rig, static_cast<int>(number)); };
+    const auto ping_at = [&](std::int64_t number) {
+        detail::require_range("rows.first", number, -(std::int64_t{1} << 31), (std::int64_t{1} << 31) - 1,
+                              "rows of pings within 2^31");
+        return ping_of(rig, static_cast<int>(number));
+    };
     detail::apply_tone(r, ping_at, rig, tone, executor_ref(ex));
     return r;
 }
@@ -159,8 +173,8 @@ frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const b
 ///
 /// @param r      a result of `record` with this track and rig, before noise and speckle
 /// @param track  the pings, numbered from 0 as in `r.rows`
-/// @throws invalid_input for a rig or a parameter out of its range, a recording of another width, or one with more
-/// pings
+/// @throws invalid_input for a rig, a ping or a parameter out of its range, a recording of another width or without
+///         labels, or one with more pings
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, std::span<const ping> track, const side_scan_rig<Axis>& rig,
                         const bottom_tone& tone, E&& ex = {}) {

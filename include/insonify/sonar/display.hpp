@@ -30,6 +30,7 @@ struct display {
     INSONIFY_TAGGED auto pass() const {
         detail::require_positive("display.white", white);
         detail::require(exponent > 0 && exponent <= 4, "display.exponent", exponent, "above 0, at most 4");
+        detail::require(numeric::is_finite(1 / white), "display.white", white, "from 3e-39, whose inverse is finite");
         return [scale = 1 / white, to = exponent]<std::same_as<float> Pixel>(Pixel intensity, int, int) -> Pixel {
             const float share = intensity * scale;
             if (!(share > 0)) return 0;
@@ -104,7 +105,9 @@ struct automatic_display {
             low = quantile(static_cast<double>(black)), high = quantile(1 - static_cast<double>(white));
         return [low, step = high > low ? 1 / (high - low) : 0.0, as = scale]<std::same_as<float> Pixel>(
                    Pixel intensity, int, int) -> Pixel {
-            const double gray = (measure(static_cast<double>(intensity), as) - low) * step;
+            const double above = measure(static_cast<double>(intensity), as) - low;
+            // Where both percentiles are of the same ground, what stands out from it is white.
+            const double gray = step > 0 ? above * step : above > 0 ? 1.0 : 0.0;
             return gray > 0 ? (gray < 1 ? static_cast<float>(gray) : 1.0f) : 0.0f;
         };
     }

@@ -33,6 +33,7 @@ constexpr const char* netpbm_extension() {
 template <class Pixel>
 std::string with_files(std::string message, const std::string& stem, const image<Pixel>& found,
                        const image<Pixel>& expected) {
+    if (found.empty()) return message;
     const std::string found_path = stem + ".found" + netpbm_extension<Pixel>();
     write_netpbm(found_path, found);
     message += "; see " + found_path;

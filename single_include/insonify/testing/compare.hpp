@@ -96,7 +96,9 @@ picture_comparison compare_pictures(const image<Pixel>& found, const image<Pixel
                 result.y = y;
             }
         }
-    if (static_cast<double>(result.wrong) <= tolerance.share * static_cast<double>(result.pixels)) return result;
+    // A share that counts divide to, such as 29 of 100, is allowed: its product with the pixels may round down.
+    if (result.wrong == 0 || static_cast<double>(result.wrong) / static_cast<double>(result.pixels) <= tolerance.share)
+        return result;
     using detail::to_text;
     result.message = to_text(result.wrong) + " of " + to_text(result.pixels) + " pixels differ by more than " +
                      to_text(tolerance.value) + " (" + to_text(tolerance.share) +
@@ -112,8 +114,10 @@ picture_comparison compare_pictures(const image<Pixel>& found, const image<Pixel
 /// @throws invalid_input if the sizes differ
 template <storable_pixel Pixel>
 image<rgb8> difference_picture(const image<Pixel>& found, const image<Pixel>& expected) {
-    detail::require(found.width() == expected.width() && found.height() == expected.height(), "size of the picture",
-                    found.size(), "that of the expected one");
+    detail::require(found.width() == expected.width(), "width of the picture", found.width(),
+                    "that of the expected one");
+    detail::require(found.height() == expected.height(), "height of the picture", found.height(),
+                    "that of the expected one");
     const auto mean = [](const Pixel& p) {
         double sum = 0;
         for (int c = 0; c < detail::channels_of<Pixel>::count; ++c) sum += detail::channels_of<Pixel>::at(p, c);
@@ -129,7 +133,7 @@ image<rgb8> difference_picture(const image<Pixel>& found, const image<Pixel>& ex
             raise_to(largest, detail::pixel_distance(found(x, y), expected(x, y)));
         }
     const auto level = [](double value, double full) {
-        const double share = full > 0 ? value / full : 0;
+        const double share = full > 0 ? value / full : value > 0 ? 1 : 0;  // nothing finite differs: NaN does
         return static_cast<std::uint8_t>(share >= 1 ? 255 : share > 0 ? 255 * share : 0);
     };
     image<rgb8> picture(found.width(), found.height());

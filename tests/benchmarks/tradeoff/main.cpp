@@ -336,7 +336,7 @@ void measure_depth(const options& o, report::contents& into) {
     };
     const auto exact = draw(false);
     cost::measure_knob(
-        o.runs, into, {.name = "interpolation of depth", .oracle = "correctly rounded (128-bit integers)"},
+        o.runs, into, {.name = "interpolation of depth", .oracle = "`depth_precision::exact`"},
         {"float", "correctly rounded"}, [&](std::size_t i) { return draw(i == 0); },
         [&](std::size_t, const in::image<float>& depth) {
             return svg::number(in::accuracy::compare_images(depth, exact).largest / 0x1p-24, 1) + " ulp at most";

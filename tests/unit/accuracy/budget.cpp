@@ -134,6 +134,13 @@ TEST_CASE("A target's facets displace its outline and its shadow by less than th
         // Beside the nadir, seen at 45 degrees, a deviation across the ray shows sqrt(2) times as large.
         CHECK(sides.deviation({.position = {6, 0, 0}}, 0) == Approx(low / std::sqrt(2.0)));
     }
+    // A ball 1.2 m high, 3.2 m beside a light at 2.4 m, moves its shadow's edge twice as far as under parallel light.
+    in::overhead lamp = rig;
+    lamp.light_distance = static_cast<float>(2.4 / std::sin(0.15));
+    const double foot = in::overhead_geometry(lamp).light_position().x;
+    const acc::settings<> near_light{.silhouette_error = 1e9, .shadow_edge_error = 1, .rig = lamp};
+    CHECK(near_light.deviation({.position = {foot + 3.2, 0, 1}}, 0.2) ==
+          Approx(0.5 * pixel * 1.2 / std::hypot(3.4, 1.2)));
     // A pose's scale applies to the shape's deviation.
     const acc::settings<> how{.rig = rig};
     CHECK(how.deviation({.scale = 2}, 0) == Approx(how.deviation({}, 0) / 2));

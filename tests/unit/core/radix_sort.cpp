@@ -1,4 +1,4 @@
-// Radix sort against std::stable_sort, for keys of 32 and 64 bits.
+// Radix sort of keyed items against std::stable_sort, and of plain 32-bit values against std::sort.
 #include <insonify/core/detail/radix_sort.hpp>
 #include <insonify/core/random.hpp>
 
@@ -12,7 +12,7 @@ namespace in = insonify;
 using in::detail::keyed;
 
 TEST_CASE("radix_sort() orders by key and keeps the order of equal ones, as a stable sort does") {
-    // Shorter and longer than the limit of insertion; keys of few values, of few digits, and any.
+    // Sizes around 64, below which insertion sort is used; few distinct keys, keys of few digits that vary, all bits.
     const std::uint32_t size = GENERATE(0u, 1u, 2u, 63u, 64u, 65u, 5000u);
     const std::uint64_t mask = GENERATE(0x3u, 0xFFFF00000000u, 0x700000000007u, ~std::uint64_t{0});
     INFO(size << " items, keys within " << mask);

@@ -190,6 +190,22 @@ TEST_CASE("Matching depends on the reference's distribution alone") {
     CHECK((source | in::match_binned(in::histogram_of(reference, 64))) == (source | in::match_binned(reference)));
 }
 
+TEST_CASE("References may be views of images that can be changed, and filters be moved from") {
+    auto reference = random_image(30, 20, 7, 2, 90);
+    const auto source = random_image(16, 16, 8, 0, 1);
+    const auto corner = reference.view().part(3, 4, 10, 9);
+    in::image<float> copy(10, 9);
+    for (int y = 0; y < 9; ++y)
+        for (int x = 0; x < 10; ++x) copy(x, y) = corner(x, y);
+    CHECK(in::histogram_of(corner, 64).counts == in::histogram_of(copy, 64).counts);
+    in::match_binned by_bins(corner);
+    in::match_histogram by_rank(corner);
+    const auto moved_bins = std::move(by_bins);
+    const auto moved_rank = std::move(by_rank);
+    for (const auto& filter : {by_bins, moved_bins}) CHECK((source | filter) == (source | in::match_binned(copy)));
+    for (const auto& filter : {by_rank, moved_rank}) CHECK((source | filter) == (source | in::match_histogram(copy)));
+}
+
 TEST_CASE("A constant image takes the reference's largest value, and a constant reference gives its only one") {
     const in::image<float> flat(9, 9, 0.3f);
     const auto reference = random_image(30, 30, 8, 1, 50);

@@ -9,6 +9,7 @@
 #include <insonify/filter/pipe.hpp>
 #include <insonify/filter/poisson.hpp>
 
+#include <climits>
 #include <cmath>
 
 #include "../../catch.hpp"
@@ -123,6 +124,13 @@ TEST_CASE("Results don't depend on the executor", "[threads]") {
     CHECK(apply(source.view(), look, backwards{}) == serial);
     CHECK(apply(in::image<float>(source), look, pool) == serial);
     CHECK(apply(source, look) == serial);
+}
+
+TEST_CASE("An origin whose columns and rows an int cannot number is refused") {
+    const in::image<float> grey(600, 4, 0.5f);
+    for (const in::pixel_origin& origin : {in::pixel_origin{INT_MAX - 10, 0}, in::pixel_origin{0, INT_MIN}})
+        CHECK_THROWS_WITH(in::apply(grey, in::gaussian{.correlation = {3, 3}}, in::serial_executor{}, origin),
+                          ContainsSubstring(origin.x != 0 ? "origin.x is 2147483637" : "origin.y is -2147483648"));
 }
 
 TEST_CASE("Empty and thin images pass through every filter") {

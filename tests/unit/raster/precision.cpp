@@ -169,7 +169,7 @@ TEST_CASE("The nearer of two surfaces is visible wherever their depths differ as
     CHECK(contested > 1000);
 }
 
-TEST_CASE("Depths of ground seen at a tenth of a degree stay in order") {
+TEST_CASE("Depths of level ground stay in order down to a grazing angle of 0.006 degrees") {
     // 1 m above level ground that reaches from 1 m to 10 km, where it is seen at 0.006 degrees; reversed depth.
     const auto along = [](const in::vertex& v) {
         return in::placed_vertex<glm::vec2>{{v.position.x, v.position.z - 1, 0.01f, v.position.y},
@@ -190,7 +190,7 @@ TEST_CASE("Depths of ground seen at a tenth of a degree stay in order") {
              in::framebuffer<void>{depth},
              {.keep = in::keep_depth::larger, .load = in::depth_load::clear, .subpixel_bits = 16});
     CHECK(seen == 3 * 4096);  // all rows below the horizon
-    // The horizon's row is half a pixel below it; snapping moves an edge by 2^-17 pixels of that.
+    // The first row lies half a pixel below the horizon; snapping moves an edge by up to 2^-17 pixels.
     CHECK(worst < 1e-4);
     for (int y = 4098; y < 8192; ++y) CHECK(depth(1, y) > depth(1, y - 1));
 }

@@ -46,6 +46,25 @@ TEST_CASE("A stencil's layer lies where its image is above one half") {
     CHECK(type_at(bed, -500, 0) == sb::type::sand);
 }
 
+TEST_CASE("A stencil of a disc, of ones and zeros, covers what the disc does, to a pixel of its border") {
+    in::image<float> picture(201, 161, 0.0f);
+    for (int y = 0; y < 161; ++y)
+        for (int x = 0; x < 201; ++x) picture(x, y) = std::hypot(0.1 * x - 9, 0.1 * y - 8) < 5 ? 1.0f : 0.0f;
+    const auto bed = [](const sb::area& where) {
+        return sb::mixed{.base = sb::flat{}, .layers = {{sb::rock{}, where, 0.6f, 0}}};
+    };
+    const sb::grid grid{.origin = {2.03, 1.07}, .spacing = 0.11, .width = 120, .height = 120};
+    const auto by_picture = sb::sample(bed(sb::stencil{picture, {0, 0}, 0.1}), grid);
+    const auto by_disc = sb::sample(bed(sb::disc{{9, 8}, 5}), grid);
+    for (int y = 0; y < 120; ++y)
+        for (int x = 0; x < 120; ++x) {
+            const double inside = 5 - std::hypot(2.03 + 0.11 * x - 9, 1.07 + 0.11 * y - 8);
+            if (std::abs(inside) < 0.4) continue;  // half of the border and a pixel
+            REQUIRE(by_picture.heights(x, y) == by_disc.heights(x, y));
+            REQUIRE(by_picture.types(x, y) == (inside > 0 ? sb::type::rock : sb::type::sand));
+        }
+}
+
 TEST_CASE("Patches cover their given fraction, for any layers above and below") {
     const float coverage = GENERATE(0.1f, 0.4f, 0.8f);
     const sb::mixed bed{.base = sb::flat{},

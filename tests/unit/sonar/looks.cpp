@@ -115,6 +115,12 @@ TEST_CASE("automatic_display() takes constant, empty and non-finite pictures") {
     CHECK(seen(0, 0) == 1);
     CHECK(seen(1, 0) == 0);
     CHECK_THROWS_AS(mixed | in::automatic_display{.black = 0.6f}, in::invalid_input);
+    // Echoes on even ground that are fewer than the pixels to be white.
+    in::image<float> few(200, 1, 1.0f);
+    few(7, 0) = 50;
+    const auto shown = few | in::automatic_display{};
+    CHECK(shown(7, 0) == 1);
+    CHECK(shown(8, 0) == 0);
 }
 
 TEST_CASE("range_gain_error() has the given level and length, and is the same in all rows") {
@@ -153,6 +159,8 @@ TEST_CASE("Filters by column take parts of a picture and masks, and noise of no 
     };
     check(in::range_gain_error{});
     check(in::water_column{.noise = 0.1f});
+    const auto before = in::apply(in::image<float>(4, 1, 0.0f), in::water_column{}, in::serial_executor{}, {-2, 0});
+    for (const float v : before.pixels()) CHECK(v >= 0);  // columns before range 0
     const auto loud =
         in::image<float>(1024, 1, 1.0f) | in::water_column{.bin = 1, .noise = 0, .absorption_per_km = 3000};
     for (const float v : loud.pixels()) REQUIRE(std::isfinite(v));
@@ -299,6 +307,25 @@ TEST_CASE("A tone is fixed to the world: both sides of a track give a place the 
             const double level = in::level_of(tone, {10 + 0.5 * (x + 0.5), 0.5 * y});
             CHECK(decibels(from_left(x, y)) == Approx(level).margin(1e-3));
         }
+}
+
+TEST_CASE("A tone is refused for recordings without labels, and for pings that are nowhere") {
+    in::scene scene;
+    scene.seabed = in::seabed::flat{};
+    const in::side_scan rig{.pings = 4, .bins = 16};
+    const auto clean = in::render(scene, rig);
+    const in::bottom_tone tone{.drift = 2};
+    auto unlabelled = clean;
+    unlabelled.labels.seabed = {};
+    CHECK_THROWS_WITH(in::with_tone(unlabelled, rig, tone), ContainsSubstring("labels.seabed.size() is 0"));
+    auto track = in::track_of(rig);
+    track[2].position.y = 1e13;
+    CHECK_THROWS_WITH(in::with_tone(clean, track, rig, tone), ContainsSubstring("ping.position.y is 1e+13"));
+    track[2].position.y = not_a_number;
+    CHECK_THROWS_WITH(in::with_tone(clean, track, rig, tone), ContainsSubstring("ping.position"));
+    auto far = clean;
+    far.rows.first = std::int64_t{1} << 32;
+    CHECK_THROWS_WITH(in::with_tone(far, rig, tone), ContainsSubstring("rows.first is 4294967296"));
 }
 
 TEST_CASE("A tone lies abreast of each ping of a track, below the sonar's own height") {

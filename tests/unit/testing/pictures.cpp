@@ -65,6 +65,9 @@ TEST_CASE("A tolerance includes its own value, for pixels and for the fraction o
     CHECK_FALSE(in::compare_pictures(found, slope(4, 5), {.value = 0.499}));
     CHECK(in::compare_pictures(found, slope(4, 5), {.share = 0.05}));
     CHECK_FALSE(in::compare_pictures(found, slope(4, 5), {.share = 0.049}));
+    in::image<float> many(100, 1, 0.0f);  // 0.29 * 100 is below 29
+    std::fill_n(many.pixels().begin(), 29, 1.0f);
+    CHECK(in::compare_pictures(many, in::image<float>(100, 1, 0.0f), {.share = 0.29}));
 }
 
 TEST_CASE("Colours differ by their worst channel") {

@@ -33,6 +33,9 @@ void prepare_pass(Pass& pass, const pixel_area& area) {
 /// be `from`.
 template <class From, class To, class Pass, executor E>
 void run_pass(image_view<const From> from, image_view<To> to, const Pass& pass, E& ex, pixel_origin origin) {
+    constexpr int farthest = 1 << 30;
+    require_range("origin.x", origin.x, -farthest, farthest, "within 2^30");
+    require_range("origin.y", origin.y, -farthest, farthest, "within 2^30");
     Pass prepared = pass;
     prepare_pass(prepared, {origin.x, origin.y, from.width(), from.height()});
     const int rows = 65536 / (std::max)(from.width(), 1) + 1;

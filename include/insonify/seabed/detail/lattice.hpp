@@ -82,7 +82,7 @@ class cell_hash {
     std::uint64_t key_;
 };
 
-/// Two numbers in [-1, 1) from 64 bits.
+/// Two numbers in [-1, 1], from 32 bits each.
 struct signed_pair {
     float a, b;
     explicit constexpr signed_pair(std::uint64_t bits)
@@ -95,7 +95,7 @@ struct lattice {
     double frequency = 1;
     double offset_x = 0, offset_y = 0;
 
-    /// Shifted by its own hash, so that the lattice lines of a sum's layers do not coincide.
+    /// Shifted by its own hash, so that the lattice lines of different octaves do not coincide.
     static lattice shifted(double cell, const cell_hash& hash) {
         const signed_pair shift(hash[0x7FFFFFFF](0x7FFFFFFF));
         return {1 / cell, static_cast<double>(shift.a), static_cast<double>(shift.b)};
@@ -104,8 +104,8 @@ struct lattice {
     double v(double y) const { return y * frequency + offset_y; }
 };
 
-/// The nearest length of eight bits. Its multiples are exact, so that nodes at multiples of it are the same in every
-/// row.
+/// Rounds a length, above 0 and finite, to eight significant bits: its multiples are exact in double, so that nodes at
+/// multiples of it are the same in every row.
 inline double rounded_to_eight_bits(double length) {
     double unit = 1;
     while (unit * 256 <= length) unit *= 2;

@@ -1,11 +1,10 @@
 // Whether a triangle blocks the light of a point, decided in doubles: the reference that every faster test reproduces.
 //
-// A triangle blocks a point's ray towards the light if the ray passes through it, edges included, and the point lies
-// behind it by more than rounding can have moved either (2^-40 of the scene's size). There is no bias. Corners are
-// sheared until the ray is upright; then it passes an edge on its left if the edge's ends, as seen from the point, make
-// a determinant that is not negative. For the triangle on the other side the ends change places, which changes the sign
-// of each rounded product and of the sum and nothing else, and a zero counts for both: no light leaks between triangles
-// that share an edge.
+// A triangle blocks a point's ray towards the light if the ray crosses it, edges included, and the point lies behind
+// its plane by more than the rounding error, 2^-40 of the scene's size. There is no bias. Vertices are sheared so that
+// the ray becomes an axis; the signs of three 2 x 2 determinants then say on which side it passes each edge. Two
+// triangles that share an edge compute the same determinant with opposite signs, and zero counts as inside for both: no
+// light leaks through the edge.
 //
 // Based on: Sven Woop, Carsten Benthin, Ingo Wald. Watertight Ray/Triangle Intersection. JCGT 2, 2013.
 #pragma once

@@ -2,15 +2,16 @@
 // cell.
 //
 // A point is in shadow if the surface has a larger u (lit_grid.hpp) somewhere on its ray towards the light. Strips one
-// row wide run along the light, so that no ray leaves its strip. Along each strip the kernel carries two bounds: a
-// lower bound of the largest u on every ray (the minimum over the vertices around the strip at each column), and an
-// upper bound (the maximum). Points below the lower bound are dark, points above the upper bound lit; the few in
-// between are left to an exact test.
+// row wide run along the light, so that no ray leaves its strip. Along each strip the kernel carries two bounds of the
+// largest u on its rays: a lower one, the running maximum over columns of the smallest u around the strip, and an upper
+// one, the running maximum of the largest. Points below the lower bound are dark, points above the upper bound lit; the
+// few in between are left to an exact test.
 //
 // Where all triangles around a strip face the light, u increases along each ray, so that they cannot shade a later
 // point of the same slope. Such columns are left out of the upper bound, or points on lit slopes would be undecided.
 //
-// Based on: Nelson L. Max. Horizon Mapping: Shadows for Bump-Mapped Surfaces. 1988
+// Based on: Nelson L. Max. Horizon Mapping: Shadows for Bump-Mapped Surfaces. The Visual Computer 4,
+// 1988
 #pragma once
 
 #include <insonify/core/simd/dispatch.hpp>
@@ -31,17 +32,17 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 /// Bounds of the largest u that rays of a strip meet before a column.
 struct horizon_bound {
     float dark_below;  ///< every ray of the strip meets a u of at least this
-    float lit_above;   ///< no ray of the strip meets a u above this
+    float lit_above;   ///< points of the column with a larger u are lit; infinity where u does not rise
 };
 
-/// Computes the bounds of adjacent strips, column by column: neighbours read the same heights.
+/// Computes the bounds of adjacent strips, column by column: neighbours read mostly the same heights.
 struct horizon_kernel {
     static constexpr int max_strips = 64;
 
     const lit_grid& grid;
     const grid_heights& heights;
     int first_row;      ///< of the first strip, in column 0
-    int count, strips;  ///< of these, and of all: multiples of 16
+    int count, strips;  ///< strips of this call, and of the grid; both multiples of 16
     float margin;       ///< of u
     float* bounds;      ///< of the first strip; by column: the lower bound of each strip, then the upper ones
 

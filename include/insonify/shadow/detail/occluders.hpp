@@ -12,6 +12,10 @@
 #include <insonify/shadow/detail/light_planes.hpp>
 #include <insonify/shadow/policy.hpp>
 
+#include <algorithm>
+#include <bit>
+#include <span>
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
@@ -157,7 +161,8 @@ struct plane_triangles {
 /// Notes which tiles the triangles of a chunk touch, in order.
 struct tile_assembly_kernel {
     const plane_vertex* vertices;
-    const glm::uvec3* triangles;
+    const mesh_view& mesh;
+    const affine& to_plane;
     std::size_t first, last;
     const plane_tiles& tiles;
     insonify::detail::tile_runs& runs;
@@ -174,7 +179,7 @@ struct tile_assembly_kernel {
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
         const plane_triangles<N> t([&](int k, int i) -> const plane_vertex& {
-            return vertices[triangles[start + (std::min)(static_cast<std::size_t>(k), count - 1)][i]];
+            return vertices[mesh.triangles[start + (std::min)(static_cast<std::size_t>(k), count - 1)][i]];
         });
         const glm::dvec2 tile = tiles.tile();
         ints from[2], to[2], outside{};
@@ -191,7 +196,11 @@ struct tile_assembly_kernel {
             cells_between<N>(from[axis], to[axis], f, l, last_cell, t.state > 0.0f);
         });
         outside = (outside & ints(t.state == 0.0f)) | ints(t.state == plane_vertex::not_finite) | t.is_behind;
-        const unsigned drawn = ~movemask<N>(outside) & ((2u << (count - 1)) - 1);
+        unsigned drawn = ~movemask<N>(outside) & ((2u << (count - 1)) - 1);
+        for (unsigned cut = drawn & movemask<N>(ints(t.state > 0.0f)); cut != 0; cut &= cut - 1) {
+            const auto k = static_cast<unsigned>(std::countr_zero(cut));
+            if (is_beside_pyramid(mesh.triangles[start + k])) drawn &= ~(1u << k);
+        }
         if (drawn == 0) return;
         const ints first_tile = from[0] | from[1] << 16, last_tile = to[0] | to[1] << 16;
         const auto id = static_cast<std::uint32_t>(start);
@@ -206,6 +215,20 @@ struct tile_assembly_kernel {
                      {static_cast<std::uint32_t>(lane(first_tile, k)), static_cast<std::uint32_t>(lane(last_tile, k))},
                      true);
         }
+    }
+
+    /// Whether a triangle that reaches behind a near light lies beyond one side of the pyramid from the light through
+    /// the plane's square: no ray to the light meets it there. The margin covers rounding.
+    INSONIFY_RARE bool is_beside_pyramid(const glm::uvec3& triangle) const {
+        glm::dvec3 p[3];
+        for (int i = 0; i < 3; ++i) p[i] = transform_point(to_plane, glm::dvec3(mesh.positions[triangle[i]]));
+        for (int axis = 0; axis < 2; ++axis)
+            for (const double sign : {-1.0, 1.0})
+                if (std::all_of(p, p + 3, [&](const glm::dvec3& q) {
+                        return sign * q[axis] > q.z + 0x1p-20 * (numeric::abs(q.z) + numeric::abs(q[axis]));
+                    }))
+                    return true;
+        return false;
     }
 };
 
@@ -231,7 +254,7 @@ class plane_caster {
         dynamic_array<insonify::detail::tile_runs> chunks((triangles_.size() + grain - 1) / grain);
         bulk_ranges(ex, triangles_.size(), grain, [&](std::size_t first, std::size_t last) {
             insonify::detail::dispatch(
-                tile_assembly_kernel{vertices_.data(), triangles_.data(), first, last, tiles, chunks[first / grain]},
+                tile_assembly_kernel{vertices_.data(), c.mesh, to_plane, first, last, tiles, chunks[first / grain]},
                 level);
         });
         bins_ = insonify::detail::tile_bins(chunks, insonify::detail::tile_grid(tiles.columns, tiles.rows, 0), ex);

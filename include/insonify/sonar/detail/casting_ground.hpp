@@ -13,16 +13,16 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The rectangle, extended towards the light to all ground that can throw a shadow on its points, by at most `longest`
-/// metres along either axis.
+/// The rectangle, extended towards the light to all ground that can throw a shadow on its points.
 ///
-/// On its way to the light, a ray from the lowest point rises above the highest ground within (highest - lowest)
-/// cot(elevation) metres or, if the light is near, within that fraction of the distance to it; beyond, it meets
-/// nothing. For an extended light, the corners of a square around it are tried: the distance is a quotient of linear
-/// functions of the position on the light, so its maximum is in a corner.
+/// A ray from the lowest point to a parallel light is above the highest ground after (highest - lowest) cot(elevation)
+/// metres; to a light nearby, after the fraction (highest - lowest) / (light's height - lowest) of the way. For an
+/// extended light, the corners of a square around it are tried: the distance is a quotient of linear functions of the
+/// position on the light, so its maximum is in a corner.
 /// @param range   heights of the lowest point and of the highest ground
 /// @param light   in the frame of the rectangle; a near one faces the origin
 /// @param radius  of the light over its distance
+/// @param longest  upper bound of the extension along each axis, metres
 inline ground_rect casting_ground(const ground_rect& points, const seabed::height_range& range,
                                   const shadow::any_light& light, double radius, double longest) {
     ground_rect all = points;

@@ -47,7 +47,7 @@ class water_law {
   private:
     double range(int x) const { return static_cast<double>(w_.first_range) + (x + 0.5) * static_cast<double>(w_.bin); }
     float noise_at(double range) const {
-        if (w_.noise == 0) return 0;
+        if (w_.noise == 0 || !(range > 0)) return 0;
         const double over = range / static_cast<double>(w_.noise_range);
         const double gain = numeric::pow(over, 0.1 * static_cast<double>(w_.spreading)) *
                             from_decibels(0.002 * static_cast<double>(w_.absorption_per_km) *
