@@ -17,8 +17,8 @@ inline double round_length(double metres) {
 
 /// Draws a bar of a round length, at most a third of the tile, and its metres into the tile's lower right corner.
 ///
-/// @param right, bottom  where the tile ends
-/// @param width, metres  the tile's width in pixels and in metres
+/// @param right, bottom  one past the tile's last column and row
+/// @param width, metres  the tile's width in pixels, at least that of the label, and in metres
 template <class Pixel>
 void draw_scale_bar(insonify::image<Pixel>& sheet, int right, int bottom, int width, double metres, const Pixel& ink,
                     const Pixel& paper) {

@@ -11,7 +11,7 @@ namespace generator {
 
 using json = nlohmann::ordered_json;
 
-/// Collects statistics of all records.
+/// Statistics of a data set as a page in Markdown: `add` takes the record of each image, `text` the configuration.
 class data_card {
   public:
     void add(const json& record);

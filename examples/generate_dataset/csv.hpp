@@ -25,6 +25,7 @@ class csv_reader {
 
     /// @param name  of the table, for errors
     /// @param text  outlives the reader
+    /// @param line  number of the first line of `text`, from 1
     csv_reader(std::string name, std::string_view text, std::size_t line = 1)
         : name_(std::move(name)), text_(text), next_line_(line) {
         if (line == 1 && text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // a byte-order mark

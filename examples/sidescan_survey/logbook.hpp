@@ -7,6 +7,7 @@
 
 namespace survey {
 
+/// Writes a survey's files. @throws io_error if one cannot be written
 class logbook {
   public:
     /// @param total  number of pings of the whole survey
@@ -30,11 +31,12 @@ class logbook {
             shadows_.row(b.labels.shadow.row(row));
             seabed_.row(b.labels.seabed.row(row));
             pages_.row(b.gray.row(row));
-            note(b.pings[static_cast<std::size_t>(row)]);
+            write_navigation(b.pings[static_cast<std::size_t>(row)]);
         }
         for (const in::target& t : in_sight.scene.targets)
             map_.mark(glm::dvec2(t.placement.position), {220, 30, 30}, 2);
         contacts_.look_at(b, in_sight);
+        // Contacts last seen before this block are complete.
         contacts_.close(b.pings.front().number, rig);
     }
 
@@ -47,7 +49,7 @@ class logbook {
     }
 
   private:
-    void note(const fix& f) {
+    void write_navigation(const fix& f) {
         const glm::dvec3& p = f.at.position;
         const double over = p.z - static_cast<double>(in::seabed::at(bottom_, p.x, p.y).height);
         const double turns = -f.at.yaw / (2 * in::numeric::pi);  // a compass goes clockwise

@@ -72,4 +72,12 @@ TEST_CASE("A mesh with an index without a position cannot enter a scene") {
         in::scene s;
         CHECK_THROWS_AS(s.add(m, {}, "broken"), in::invalid_input);
     }
+    // Wherever it stands, among as many triangles as fill the lanes and leave some over.
+    for (std::size_t count = 1; count < 14; ++count)
+        for (std::size_t bad = 0; bad < 3 * count; ++bad) {
+            in::mesh m = shapes::tilted_quad();
+            m.triangles.assign(count, {0, 1, 2});
+            m.triangles[bad / 3][static_cast<int>(bad % 3)] = 4;
+            CHECK_THROWS_AS(in::scene().add(m, {}, "broken"), in::invalid_input);
+        }
 }
