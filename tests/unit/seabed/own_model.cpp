@@ -188,7 +188,7 @@ TEST_CASE("A seabed without a range is drawn in range modes and refused by overh
 }
 
 TEST_CASE("A seabed that leaves the range that it states is refused where shadows depend on it") {
-    const in::shadow::directional_light sun{.elevation = 0.3f};
+    const in::shadow::directional_light sun{.elevation = 0.3};
     const auto draw = [](const plateau& p) {
         in::scene s;
         s.seabed = p;

@@ -321,7 +321,7 @@ TEST_CASE("A tone is refused for recordings without labels, and for pings that a
     auto track = in::track_of(rig);
     track[2].position.y = 1e13;
     CHECK_THROWS_WITH(in::with_tone(clean, track, rig, tone), ContainsSubstring("ping.position.y is 1e+13"));
-    track[2].position.y = not_a_number;
+    track[2].position.y = static_cast<double>(not_a_number);
     CHECK_THROWS_WITH(in::with_tone(clean, track, rig, tone), ContainsSubstring("ping.position"));
     auto far = clean;
     far.rows.first = std::int64_t{1} << 32;
