@@ -16604,8 +16604,12 @@ class exact_occlusion {
         for (int i = 0; i < 3 && !bounds.empty(); ++i) reach = (std::max)({reach, -bounds.lower[i], bounds.upper[i]});
         return reach;
     }
-    /// Whether a caster is a grid that needs no list of triangles under parallel light.
-    static bool has_horizon(const caster& c) { return c.grid != nullptr && c.may_skip == skip::facing_its_own; }
+    /// Whether a caster is a grid that needs no list of triangles under parallel light. Parts of a wide light may lie
+    /// below the grid's plane although its centre does not.
+    static bool has_horizon(const caster& c, const light_frame& frame) {
+        return c.grid != nullptr && c.may_skip == skip::facing_its_own &&
+               transform_direction(inverse(c.placement), frame.to_light()).z > 0;
+    }
     static constexpr std::size_t screened_together = 256;
     /// Screens points of one mesh, of parallel light.
     void screen(const points& at, std::size_t first, std::size_t last, const results& into) const {
@@ -16648,7 +16652,7 @@ class exact_occlusion {
     template <executor E>
     void add_parallel_plane(const light_frame& frame, const bounding_box& bounds, int side, E& ex) {
         for (std::size_t i = 0; i < casters_.size(); ++i)
-            if (has_horizon(casters_[i])) grids_[i].emplace(casters_[i], frame, level_, ex);
+            if (has_horizon(casters_[i], frame)) grids_[i].emplace(casters_[i], frame, level_, ex);
         const detail::light_plane plane(frame);
         const auto [lower, upper] = detail::extent_on(plane, [&](int i) { return bounds.corner(i); });
         add_plane(plane, {lower, upper - lower, side, side}, 0x1p-44 * reach_of(bounds) * (1 + frame.cot_elevation()),
@@ -17751,7 +17755,8 @@ namespace detail::inline INSONIFY_FLAGS {
 ///
 /// A ray that starts outside of a closed mesh and hits it enters it through a triangle that faces away from the light,
 /// so triangles that face the light may be skipped. What a camera outside of the mesh sees lies outside. The same holds
-/// for a heightfield's own points if camera and light are above it: rays leave its bounds above the surface.
+/// for a heightfield's own points if camera and light are above it: rays leave its bounds above the surface. From
+/// beside it, a camera may see its lower side, under its border.
 inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh& m) {
     const view_from_object from(view, m.to_rig);
     const auto is_outside = [&](const glm::dvec3& p) {
@@ -17764,8 +17769,9 @@ inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh
     const bool is_lit_from_outside = !view.has_near_light() || is_outside(from.light);
     shadow::skip may_skip = shadow::skip::nothing;
     if (m.kind == surface_kind::closed && is_outside(from.eye) && is_lit_from_outside) may_skip = shadow::skip::facing;
-    if (m.kind == surface_kind::heightfield && is_above(from.eye) && is_lit_from_above)
-        may_skip = shadow::skip::facing_its_own;
+    const bool is_over_it = is_above(from.eye) && from.eye.x >= m.box.lower.x && from.eye.x <= m.box.upper.x &&
+                            from.eye.y >= m.box.lower.y && from.eye.y <= m.box.upper.y;
+    if (m.kind == surface_kind::heightfield && is_over_it && is_lit_from_above) may_skip = shadow::skip::facing_its_own;
     return {m.shape, m.to_rig, m.box, may_skip, m.grid};
 }
 

@@ -128,8 +128,12 @@ class exact_occlusion {
         for (int i = 0; i < 3 && !bounds.empty(); ++i) reach = (std::max)({reach, -bounds.lower[i], bounds.upper[i]});
         return reach;
     }
-    /// Whether a caster is a grid that needs no list of triangles under parallel light.
-    static bool has_horizon(const caster& c) { return c.grid != nullptr && c.may_skip == skip::facing_its_own; }
+    /// Whether a caster is a grid that needs no list of triangles under parallel light. Parts of a wide light may lie
+    /// below the grid's plane although its centre does not.
+    static bool has_horizon(const caster& c, const light_frame& frame) {
+        return c.grid != nullptr && c.may_skip == skip::facing_its_own &&
+               transform_direction(inverse(c.placement), frame.to_light()).z > 0;
+    }
     static constexpr std::size_t screened_together = 256;
     /// Screens points of one mesh, of parallel light.
     void screen(const points& at, std::size_t first, std::size_t last, const results& into) const {
@@ -172,7 +176,7 @@ class exact_occlusion {
     template <executor E>
     void add_parallel_plane(const light_frame& frame, const bounding_box& bounds, int side, E& ex) {
         for (std::size_t i = 0; i < casters_.size(); ++i)
-            if (has_horizon(casters_[i])) grids_[i].emplace(casters_[i], frame, level_, ex);
+            if (has_horizon(casters_[i], frame)) grids_[i].emplace(casters_[i], frame, level_, ex);
         const detail::light_plane plane(frame);
         const auto [lower, upper] = detail::extent_on(plane, [&](int i) { return bounds.corner(i); });
         add_plane(plane, {lower, upper - lower, side, side}, 0x1p-44 * reach_of(bounds) * (1 + frame.cot_elevation()),

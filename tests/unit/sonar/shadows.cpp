@@ -15,6 +15,7 @@ namespace scenes = shadow_scenes;
 
 namespace {
 
+using namespace in::literals;
 using exact_options = in::render_options<in::shadow::exact>;
 
 /// Visibility is tested elsewhere: with vertices rounded to 1/65536 pixel, each pixel shows the oracle's triangle.
@@ -430,6 +431,68 @@ TEST_CASE("Targets below a gap in the seabed have the shadows that they have wit
             CHECK(in::render(s, rig).labels.shadow == bare.labels.shadow);
             CHECK(bare.labels.targets[1].box.width() > 5);
         }
+}
+
+namespace {
+/// A lattice of vertices at multiples of `spacing`, z = height(x, y).
+template <class Height>
+in::mesh lattice_of(std::uint32_t side, float spacing, const Height& height) {
+    in::mesh m;
+    for (std::uint32_t j = 0; j < side; ++j)
+        for (std::uint32_t i = 0; i < side; ++i) {
+            const float x = spacing * static_cast<float>(i), y = spacing * static_cast<float>(j);
+            m.positions.emplace_back(x, y, height(x, y));
+        }
+    for (std::uint32_t j = 0; j + 1 < side; ++j)
+        for (std::uint32_t i = 0; i + 1 < side; ++i) {
+            const std::uint32_t v = side * j + i;
+            m.triangles.push_back({v, v + 1, v + side + 1});
+            m.triangles.push_back({v, v + side + 1, v + side});
+        }
+    return m;
+}
+/// A triangle far below, with which a heightfield is an open mesh.
+void open_up(in::mesh& m) {
+    const auto v = static_cast<std::uint32_t>(m.positions.size());
+    m.positions.insert(m.positions.end(), {{0, 0, -30}, {0.01f, 0, -30}, {0.01f, 0, -30.01f}});
+    m.triangles.push_back({v, v + 1, v + 2});
+}
+}  // namespace
+
+TEST_CASE("A camera that looks under the border of a heightfield sees its lower side in the light") {
+    for (const bool is_open : {false, true}) {
+        in::mesh ramp = lattice_of(3, 0.5f, [](float, float y) { return 2 * y; });
+        if (is_open) open_up(ramp);
+        in::scene s;
+        s.seabed = in::seabed::none{};
+        s.add(ramp, {.position = {-0.5, -3, 0}}, "ramp");
+        // Over (0, 0), 2.2 m up, with light that comes from +y.
+        in::overhead rig{.altitude = 2.2f, .field_of_view = 150_deg, .size = {128, 128}, .grazing = 6_deg};
+        rig.light_azimuth = -90_deg;
+        const auto frame = in::render(s, rig);
+        REQUIRE(frame.labels.targets[0].area > 500);
+        int dark = 0;
+        for (std::size_t i = 0; i < frame.image.size(); ++i)
+            dark += frame.labels.instance.pixels()[i] != 0 && frame.labels.shadow.pixels()[i] != in::labels::is_lit;
+        CHECK(dark == 0);
+    }
+}
+
+TEST_CASE("A wide light that reaches below the plane of a tilted grid casts the shadows of any mesh") {
+    in::mesh sheet = lattice_of(24, 0.1f, [](float x, float y) { return 0.05f * std::sin(13 * x) * std::cos(9 * y); });
+    const double tilt = 28 * in::numeric::pi / 180;  // light comes in 2 degrees above the sheet's plane
+    in::image<float> pictures[2];
+    for (const int is_open : {0, 1}) {
+        if (is_open != 0) open_up(sheet);
+        in::scene s;
+        s.seabed = in::seabed::none{};
+        s.add(sheet, {.position = {-1.2 * std::cos(tilt), -1.2, 2}, .pitch = static_cast<float>(tilt)}, "sheet");
+        const in::overhead rig{.altitude = 8, .field_of_view = 25_deg, .size = {100, 100}, .grazing = 30_deg};
+        pictures[is_open] =
+            in::render(s, rig, in::render_options<>{}.with(in::shadow::penumbra{.diameter = 0.3f, .samples = 16}))
+                .image;
+    }
+    CHECK(pictures[0] == pictures[1]);
 }
 
 TEST_CASE("A wall outside of the picture casts its shadow into it, over height / tan(elevation)") {

@@ -13,7 +13,8 @@ namespace detail::inline INSONIFY_FLAGS {
 ///
 /// A ray that starts outside of a closed mesh and hits it enters it through a triangle that faces away from the light,
 /// so triangles that face the light may be skipped. What a camera outside of the mesh sees lies outside. The same holds
-/// for a heightfield's own points if camera and light are above it: rays leave its bounds above the surface.
+/// for a heightfield's own points if camera and light are above it: rays leave its bounds above the surface. From
+/// beside it, a camera may see its lower side, under its border.
 inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh& m) {
     const view_from_object from(view, m.to_rig);
     const auto is_outside = [&](const glm::dvec3& p) {
@@ -26,8 +27,9 @@ inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh
     const bool is_lit_from_outside = !view.has_near_light() || is_outside(from.light);
     shadow::skip may_skip = shadow::skip::nothing;
     if (m.kind == surface_kind::closed && is_outside(from.eye) && is_lit_from_outside) may_skip = shadow::skip::facing;
-    if (m.kind == surface_kind::heightfield && is_above(from.eye) && is_lit_from_above)
-        may_skip = shadow::skip::facing_its_own;
+    const bool is_over_it = is_above(from.eye) && from.eye.x >= m.box.lower.x && from.eye.x <= m.box.upper.x &&
+                            from.eye.y >= m.box.lower.y && from.eye.y <= m.box.upper.y;
+    if (m.kind == surface_kind::heightfield && is_over_it && is_lit_from_above) may_skip = shadow::skip::facing_its_own;
     return {m.shape, m.to_rig, m.box, may_skip, m.grid};
 }
 
