@@ -434,35 +434,14 @@ TEST_CASE("Targets below a gap in the seabed have the shadows that they have wit
 }
 
 namespace {
-/// A lattice of vertices at multiples of `spacing`, z = height(x, y).
-template <class Height>
-in::mesh lattice_of(std::uint32_t side, float spacing, const Height& height) {
-    in::mesh m;
-    for (std::uint32_t j = 0; j < side; ++j)
-        for (std::uint32_t i = 0; i < side; ++i) {
-            const float x = spacing * static_cast<float>(i), y = spacing * static_cast<float>(j);
-            m.positions.emplace_back(x, y, height(x, y));
-        }
-    for (std::uint32_t j = 0; j + 1 < side; ++j)
-        for (std::uint32_t i = 0; i + 1 < side; ++i) {
-            const std::uint32_t v = side * j + i;
-            m.triangles.push_back({v, v + 1, v + side + 1});
-            m.triangles.push_back({v, v + side + 1, v + side});
-        }
-    return m;
-}
-/// A triangle far below, with which a heightfield is an open mesh.
-void open_up(in::mesh& m) {
-    const auto v = static_cast<std::uint32_t>(m.positions.size());
-    m.positions.insert(m.positions.end(), {{0, 0, -30}, {0.01f, 0, -30}, {0.01f, 0, -30.01f}});
-    m.triangles.push_back({v, v + 1, v + 2});
-}
+/// With this triangle far below, a heightfield is an open mesh.
+const in::mesh far_below{{{0, 0, -30}, {0.01f, 0, -30}, {0.01f, 0, -30.01f}}, {}, {{0, 1, 2}}};
 }  // namespace
 
 TEST_CASE("A camera that looks under the border of a heightfield sees its lower side in the light") {
     for (const bool is_open : {false, true}) {
-        in::mesh ramp = lattice_of(3, 0.5f, [](float, float y) { return 2 * y; });
-        if (is_open) open_up(ramp);
+        in::mesh ramp = shadow_meshes::sheet(2, 2, [](double u, double v) { return glm::dvec3(u, v, 2 * v); });
+        if (is_open) ramp = shadow_meshes::joined(ramp, far_below);
         in::scene s;
         s.seabed = in::seabed::none{};
         s.add(ramp, {.position = {-0.5, -3, 0}}, "ramp");
@@ -479,11 +458,13 @@ TEST_CASE("A camera that looks under the border of a heightfield sees its lower 
 }
 
 TEST_CASE("A wide light that reaches below the plane of a tilted grid casts the shadows of any mesh") {
-    in::mesh sheet = lattice_of(24, 0.1f, [](float x, float y) { return 0.05f * std::sin(13 * x) * std::cos(9 * y); });
+    in::mesh sheet = shadow_meshes::sheet(23, 23, [](double u, double v) {
+        return glm::dvec3(2.3 * u, 2.3 * v, 0.05 * std::sin(30 * u) * std::cos(20 * v));
+    });
     const double tilt = 28 * in::numeric::pi / 180;  // light comes in 2 degrees above the sheet's plane
     in::image<float> pictures[2];
     for (const int is_open : {0, 1}) {
-        if (is_open != 0) open_up(sheet);
+        if (is_open != 0) sheet = shadow_meshes::joined(sheet, far_below);
         in::scene s;
         s.seabed = in::seabed::none{};
         s.add(sheet, {.position = {-1.2 * std::cos(tilt), -1.2, 2}, .pitch = static_cast<float>(tilt)}, "sheet");
