@@ -16881,7 +16881,13 @@ inline facet facet_at(image_view<const float> heights, double u, double v) {
     const double side = static_cast<double>(lower ? heights(x.cell + 1, y.cell) : heights(x.cell, y.cell + 1));
     const double rise_x = lower ? side - corner : opposite - side;
     const double rise_y = lower ? opposite - side : side - corner;
-    const double height = corner + x.across * rise_x + y.across * rise_y;
+    double height = corner + x.across * rise_x + y.across * rise_y;
+    if (!numeric::is_finite(height)) {
+        // A vertex without data counts only where it has a share: the gap's border has heights.
+        const auto part = [](double share, double of) { return share > 0 ? share * of : 0.0; };
+        const double larger = (std::max)(x.across, y.across), smaller = (std::min)(x.across, y.across);
+        height = part(1 - larger, corner) + part(larger - smaller, side) + part(smaller, opposite);
+    }
     return {numeric::is_finite(height) ? height : (std::numeric_limits<double>::quiet_NaN)(), rise_x, rise_y};
 }
 
@@ -16898,7 +16904,7 @@ class heightfield_sampler;
 ///
 /// The surface is that of the drawn mesh: the diagonal from vertex (i, j) to (i + 1, j + 1) divides each cell into two
 /// plane triangles. Heights outside are those of the nearest edge. A vertex that is NaN or infinite has no data:
-/// queries on its triangles return NaN, and the mesh leaves them out.
+/// queries within its triangles return NaN, and the mesh leaves them out.
 struct heightfield {
     image<float> heights{};       ///< metres above the datum, at least 2 x 2 vertices
     image<type> types{};          ///< one per vertex; empty: all are `fallback`
@@ -24660,6 +24666,7 @@ class bottom_tiles {
         mark(pings, steps);
         const dynamic_array<tile_run> runs = number_marked();
         const std::size_t tiles = runs.empty() ? 0 : std::size_t{runs.back().slot} + runs.back().count;
+        require(tiles < max_tiles, "seabed tiles", tiles, "below 2^18, which is 17 GB: take larger cells");
         vertices_.reset(new bottom_vertex[tiles * tile_size]);
         ex.bulk(runs.size(), [&](std::size_t i) { sample(runs[i]); });
         sampled_ += tiles * tile_size;
@@ -24682,15 +24689,22 @@ class bottom_tiles {
         const bottom_vertex &b = a[1], &c = a[stride], &d = a[stride + 1];
         const float wa = (1 - right) * (1 - up), wb = right * (1 - up), wc = (1 - right) * up, wd = right * up;
         const bottom_vertex& nearest = up < 0.5f ? (right < 0.5f ? *a : b) : (right < 0.5f ? c : d);
-        return {wa * a->height + wb * b.height + wc * c.height + wd * d.height,
-                wa * a->slope_x + wb * b.slope_x + wc * c.slope_x + wd * d.slope_x,
-                wa * a->slope_y + wb * b.slope_y + wc * c.slope_y + wd * d.slope_y, nearest.type};
+        const bottom_vertex mean{wa * a->height + wb * b.height + wc * c.height + wd * d.height,
+                                 wa * a->slope_x + wb * b.slope_x + wc * c.slope_x + wd * d.slope_x,
+                                 wa * a->slope_y + wb * b.slope_y + wc * c.slope_y + wd * d.slope_y, nearest.type};
+        return mean.height == mean.height ? mean : beside_gap(mean, a, right, up);
     }
 
-    /// Clamps a depth along a pitched fan to the seabed's bounds; NaN becomes the lower one.
-    double clamped(const ping_frame& p, double depth) const {
-        const auto [shallowest, deepest] = depths(p);
-        return depth > shallowest ? (std::min)(depth, deepest) : shallowest;
+    /// Bounds of the seabed's depth along a pitched fan; 0 for level ones, which do not need them.
+    struct depth_range {
+        double shallowest, deepest;
+    };
+    /// @throws invalid_input for pitched pings over a seabed that does not state its heights
+    depth_range depths(const ping_frame& p) const {
+        if (p.is_level() || range_.empty()) return {0, 0};
+        seabed::detail::require_finite(range_);
+        return {(p.position().z - range_.highest) / p.cosine_pitch(),
+                (p.position().z - range_.lowest) / p.cosine_pitch()};
     }
 
     /// Vertices evaluated so far.
@@ -24700,6 +24714,7 @@ class bottom_tiles {
     static constexpr int shift = 6;
     static constexpr std::size_t stride = cells + 1;  // with the first vertices of the next tile
     static constexpr std::size_t tile_size = stride * stride;
+    static constexpr std::size_t max_tiles = 1 << 18;
     static constexpr std::uint32_t absent = 0xFFFFFFFFu;
     static_assert(1 << shift == cells);
 
@@ -24765,15 +24780,6 @@ class bottom_tiles {
         return static_cast<std::size_t>((y - first_y_) * columns_ + (x - first_x_));
     }
 
-    /// Bounds of the seabed's depth along a pitched fan; 0 for level ones, which do not need them.
-    /// @throws invalid_input for pitched pings over a seabed that does not state its heights
-    std::pair<double, double> depths(const ping_frame& p) const {
-        if (p.is_level() || range_.empty()) return {0, 0};
-        seabed::detail::require_finite(range_);
-        return {(p.position().z - range_.highest) / p.cosine_pitch(),
-                (p.position().z - range_.lowest) / p.cosine_pitch()};
-    }
-
     /// Adjacent tiles along x, sampled together: long rows cost less per sample.
     struct tile_run {
         std::int64_t x, y;
@@ -24799,6 +24805,18 @@ class bottom_tiles {
                     runs.push_back({first_x_ + x, first_y_ + y, slot, 1});
             }
         return runs;
+    }
+
+    /// Where a vertex of the cell has no height: vertices without a share don't count, so that the border of a gap has
+    /// heights.
+    INSONIFY_RARE static bottom_vertex beside_gap(bottom_vertex mean, const bottom_vertex* corner, float right,
+                                                  float up) {
+        const auto between = [](float share, float from, float to) {
+            return (share < 1 ? (1 - share) * from : 0.0f) + (share > 0 ? share * to : 0.0f);
+        };
+        mean.height = between(up, between(right, corner[0].height, corner[1].height),
+                              between(right, corner[stride].height, corner[stride + 1].height));
+        return mean;
     }
 
     /// Samples a run, with a margin of one vertex for the slopes.
@@ -24866,38 +24884,30 @@ struct bottom_point {
 /// Samples the profile of one ping after the other, reusing memory.
 class bottom_profile {
   public:
-    /// @param start  lower bound of the first vertex's distance across the track
-    bottom_profile(const bottom_tiles& tiles, double step, double start, double range)
-        : tiles_(tiles),
-          step_(step),
-          first_(static_cast<std::size_t>(-numeric::floor_to_int(-start / step))),
-          end_(static_cast<std::size_t>(numeric::floor_to_int(range / step)) + 2) {}
+    bottom_profile(const bottom_tiles& tiles, double step, double range)
+        : tiles_(tiles), step_(step), end_(static_cast<std::size_t>(numeric::floor_to_int(range / step)) + 2) {}
 
-    void sample(const ping_frame& p) {
+    /// @param start  lower bound of the first vertex's distance across the track
+    void sample(const ping_frame& p, double start) {
+        first_ = static_cast<std::size_t>(-numeric::floor_to_int(-start / step_));
         points_.resize(end_ - first_);
         lowest_ = 1e30, highest_ = -1e30;
         const glm::vec2 across(p.across()), along(p.along());
         const double altitude = p.position().z;
+        const bottom_tiles::depth_range depths = tiles_.depths(p);
         for (std::size_t i = 0; i < points_.size(); ++i) {
-            bottom_vertex v;
-            double depth;
+            cut at;
             if (p.is_level()) {
-                const glm::dvec2 at = p.world(x(i), 0);
-                v = tiles_.at(at.x, at.y);
-                depth = altitude - static_cast<double>(v.height);
+                const glm::dvec2 below = p.world(x(i), 0);
+                at.vertex = tiles_.at(below.x, below.y);
+                at.down = altitude - static_cast<double>(at.vertex.height);
             } else {
-                // The position depends on the depth: a fixed-point iteration, which converges on slopes below
-                // 1 / tan(pitch).
-                depth = i > 0 ? points_[i - 1].down : 0;
-                for (int step = 0; step < 5; ++step) {
-                    const glm::dvec2 at = p.below(x(i), tiles_.clamped(p, depth));
-                    v = tiles_.at(at.x, at.y);
-                    depth = (altitude - static_cast<double>(v.height)) / p.cosine_pitch();
-                }
+                at = cut_near(p, x(i), i > 0 ? points_[i - 1].down : depths.shallowest, depths);
             }
+            const bottom_vertex& v = at.vertex;
             const auto height = static_cast<double>(v.height);
-            points_[i] = {depth, v.slope_x * across.x + v.slope_y * across.y, v.slope_x * along.x + v.slope_y * along.y,
-                          static_cast<std::uint8_t>(v.type)};
+            points_[i] = {at.down, v.slope_x * across.x + v.slope_y * across.y,
+                          v.slope_x * along.x + v.slope_y * along.y, static_cast<std::uint8_t>(v.type)};
             lowest_ = (std::min)(lowest_, height);  // in this order, NaN is ignored
             highest_ = (std::max)(highest_, height);
         }
@@ -24916,9 +24926,58 @@ class bottom_profile {
     }
 
   private:
+    /// Where the plane of a pitched fan cuts the seabed, at a distance across the track.
+    struct cut {
+        double down;
+        bottom_vertex vertex;
+    };
+
+    /// The seabed below the fan's point (x, down), and the depth along the fan at which it has this height.
+    cut seabed_at(const ping_frame& p, double x, double down) const {
+        const glm::dvec2 at = p.below(x, down);
+        const bottom_vertex v = tiles_.at(at.x, at.y);
+        return {(p.position().z - static_cast<double>(v.height)) / p.cosine_pitch(), v};
+    }
+
+    /// The cut near a depth. The seabed's position depends on the depth: a fixed-point iteration, which converges on
+    /// slopes below 1 / tan(pitch); elsewhere and beside gaps, a search.
+    cut cut_near(const ping_frame& p, double x, double down, const bottom_tiles::depth_range& depths) const {
+        cut found{down, {}};
+        double last = down;
+        for (int i = 0; i < 5; ++i) {
+            // In this order, NaN becomes the shallowest depth.
+            last = (std::min)((std::max)(depths.shallowest, found.down), depths.deepest);
+            found = seabed_at(p, x, last);
+        }
+        return numeric::abs(found.down - last) <= 0.01 * step_ ? found : first_cut(p, x, depths);
+    }
+
+    /// The first cut, from above.
+    cut first_cut(const ping_frame& p, double x, const bottom_tiles::depth_range& depths) const {
+        constexpr int halvings = 20;
+        const double range = depths.deepest - depths.shallowest;
+        const std::int64_t steps = numeric::floor_to_int(range * numeric::abs(p.sine_pitch()) / step_) + 1;
+        double above = depths.shallowest;
+        bool is_above = true;
+        for (std::int64_t i = 0; i <= steps; ++i) {
+            const double at = depths.shallowest + range * static_cast<double>(i) / static_cast<double>(steps);
+            const double met = seabed_at(p, x, at).down;
+            if (is_above && met <= at) {
+                double below = at;
+                for (int halving = 0; halving < halvings; ++halving) {
+                    const double middle = 0.5 * (above + below);
+                    (seabed_at(p, x, middle).down > middle ? above : below) = middle;
+                }
+                return {below, seabed_at(p, x, below).vertex};
+            }
+            is_above = met > at, above = at;
+        }
+        return {std::numeric_limits<double>::quiet_NaN(), {std::numeric_limits<float>::quiet_NaN(), 0, 0, 0}};
+    }
+
     const bottom_tiles& tiles_;
     double step_;
-    std::size_t first_, end_;
+    std::size_t first_ = 0, end_;
     double lowest_ = 0, highest_ = 0;
     dynamic_array<bottom_point> points_;
 };
@@ -25118,13 +25177,15 @@ class ping_fan {
         const auto tangent_at = [](double r, double height) {
             return r > height ? numeric::square_root(r * r - height * height) / height : 0;
         };
-        const double spacing = step / low, level_end = tangent_at(range, low);
-        const double end = shape.above_highest > 0
-                               ? (std::min)(tangent_at(range, shape.above_highest), 2 * level_end + 1)
-                               : 2 * level_end + 1;
+        const double spacing = step / low;
+        // Higher ground needs flatter rays to the range's end: as far as it lies below a sixteenth of the lowest's
+        // depth.
+        const double flattest = (std::max)(1.0, 16 * range / low);
+        const double end =
+            shape.above_highest > 0 ? (std::min)(tangent_at(range, shape.above_highest), flattest) : flattest;
         const std::int64_t first = numeric::floor_to_int(tangent_at(first_range, low) / spacing);
         const std::int64_t last = numeric::floor_to_int(end / spacing) + 1;
-        require(last - first < (1 << 24), "rays of a ping", last - first, "below 2^24: take wider bins");
+        require(last - first < (1 << 25), "rays of a ping", last - first, "below 2^25: take wider bins");
         rays_.reserve(static_cast<std::size_t>(last - first));
         for (std::int64_t i = first; i < last; ++i) {
             const double tangent = (static_cast<double>(i) + 0.5) * spacing;
@@ -25369,11 +25430,13 @@ class sliced_target {
         centre_ = transform_point(to_world_, box.centre());
         const glm::dvec3 half = 0.5 * box.size();
         radius_ = numeric::square_root(numeric::dot(half, half)) * static_cast<double>(t.placement.scale) * (1 + 1e-6);
+        const glm::dmat3& turn = to_world_.linear;
+        rise_ = numeric::abs(turn[0].z) * half.x + numeric::abs(turn[1].z) * half.y + numeric::abs(turn[2].z) * half.z;
     }
 
-    /// Bounds of its heights above the datum.
-    double top() const { return centre_.z + radius_; }
-    double foot() const { return radius_ > 0 ? centre_.z - radius_ : 1e30; }
+    /// Bounds of its heights above the datum: those of its box.
+    double top() const { return centre_.z + rise_; }
+    double foot() const { return radius_ > 0 ? centre_.z - rise_ : 1e30; }
 
     bool is_met_by(const ping_frame& p, double range) const {
         const glm::dvec3 centre = p(centre_);
@@ -25435,7 +25498,8 @@ class sliced_target {
     std::shared_ptr<const plane_tree> tree_;
     affine to_world_;
     glm::dvec3 centre_{0, 0, -1e30};
-    double radius_ = 0;
+    double radius_ = 0;  ///< of a ball around it
+    double rise_ = 0;    ///< from the centre to the top
 };
 
 /// The targets of a scene; those with the same mesh share its tree.
@@ -25666,9 +25730,15 @@ class target_hits {
         double covered = 0, largest = 0;
         for (std::size_t i = first_[k]; i < end; ++i) {
             covered += hits_[i].fraction;
-            if (hits_[i].fraction <= largest) continue;
-            largest = hits_[i].fraction;
-            occluders_[k] = {numeric::square_root(hits_[i].square_range()), hits_[i].instance};
+            double of_target = 0, nearest = hits_[i].square_range();
+            for (std::size_t j = i; j < end; ++j) {
+                if (hits_[j].instance != hits_[i].instance || !(hits_[j].fraction > 0)) continue;
+                of_target += hits_[j].fraction;
+                nearest = (std::min)(nearest, hits_[j].square_range());
+            }
+            if (of_target <= largest) continue;
+            largest = of_target;
+            occluders_[k] = {numeric::square_root(nearest), hits_[i].instance};
         }
         if (!(covered > 0.5)) occluders_[k].range = std::numeric_limits<double>::infinity();
     }
@@ -25711,36 +25781,37 @@ class ping_tracer {
   public:
     ping_tracer(const scene& s, const bottom_materials& materials, std::span<const sliced_target> targets,
                 const bottom_tiles& bottom, const range_bins& window, const Law& law,
-                const equation_interface& equation, double cell, const seabed::height_range& relief, double start)
+                const equation_interface& equation, double cell, const seabed::height_range& relief)
         : scene_(s),
           materials_(materials),
           targets_(targets),
           law_(law),
           equation_(equation),
           relief_(relief),
+          window_(window),
+          cell_(cell),
           range_(static_cast<double>(window.range)),
           axis_{static_cast<double>(window.first_range), window.bin(), window.counts_time},
           step_((std::min)(axis_.bin, cell)),
-          profile_(bottom, (std::max)(step_, 0.5 * cell), start, range_),
-          spacing_(window.ping_spacing),
+          profile_(bottom, (std::max)(step_, 0.5 * cell), range_),
           bins_(static_cast<std::size_t>(window.bins)) {
-        for (const sliced_target& t : targets) {
-            top_ = (std::max)(top_, t.top());
-            foot_ = (std::min)(foot_, t.foot());
-        }
+        for (const sliced_target& t : targets) top_ = (std::max)(top_, t.top());
     }
 
     /// @returns one per bin, valid until the next call
     std::span<const echo_bin> trace(const ping_frame& p) {
         bins_.clear();
-        profile_.sample(p);
+        profile_.sample(p, start(window_, cell_, relief_, p, targets_));
         const double altitude = p.position().z;
+        double foot = 1e30;
+        for (const sliced_target& t : targets_)
+            if (meets(p, t)) foot = (std::min)(foot, t.foot());
         double lowest = profile_.lowest(), highest = profile_.highest();
         if (skips_foreground(relief_, axis_.first, p)) lowest = relief_.lowest, highest = relief_.highest;
         if (!(lowest <= highest))  // no seabed here: rays for the targets alone
-            lowest = highest = (std::min)(foot_, altitude - range_ / 16);
+            lowest = highest = (std::min)(foot, altitude - range_ / 16);
         // Targets below the seabed may be in the window closer to nadir than the seabed is.
-        if (axis_.first > 0 && foot_ < lowest && profile_.has_gaps()) lowest = foot_;
+        if (axis_.first > 0 && foot < lowest && profile_.has_gaps()) lowest = foot;
         // In a pitched fan depths are longer; level ones bound the heights above.
         const double stretch = 1 / p.cosine_pitch();
         const fan_shape shape =
@@ -25766,8 +25837,9 @@ class ping_tracer {
         const double lowest = altitude - relief.lowest, begin = first - 4 * window.bin();
         const double square = window.counts_time ? begin * begin - lowest * lowest : begin * begin;
         const double place = begin > 0 && square > 0 ? numeric::square_root(square) - 4 * cell : 0;
+        // Targets that are nearer than the window's seabed, or all of whose echo comes through a gap.
         for (const sliced_target& t : targets)
-            if (t.is_met_by(p, 1e9) && t.nearest(p) < place) return 0;
+            if (t.is_met_by(p, 1e9) && (t.nearest(p) < place || t.top() < relief.lowest)) return 0;
         // The highest possible crest that occludes the lowest possible ground there.
         return (std::max)(0.0, place * (altitude - relief.highest) / lowest - 4 * cell);
     }
@@ -25793,7 +25865,7 @@ class ping_tracer {
         attitude_ = attitude;
         const auto [sine_roll, cosine_roll, cosine_pitch] = attitude;
         // A pitched fan is thinner than the spacing of pings along the track.
-        const float thickness = spacing_ * static_cast<float>(cosine_pitch);
+        const float thickness = window_.ping_spacing * static_cast<float>(cosine_pitch);
         for (std::size_t k = 0; k < fan_.size(); ++k) {
             const double across = fan_[k].sine * cosine_roll + fan_[k].cosine * sine_roll,
                          down = fan_[k].cosine * cosine_roll - fan_[k].sine * sine_roll;
@@ -25801,10 +25873,15 @@ class ping_tracer {
         }
     }
 
+    /// Whether a target may echo within the range.
+    bool meets(const ping_frame& p, const sliced_target& t) const {
+        return t.is_met_by(p, axis_.counts_time ? range_ : 1e30) && t.nearest(p) < range_;
+    }
+
     void gather_targets(const ping_frame& p) {
         has_targets_ = false;
         for (std::size_t i = 0; i < targets_.size(); ++i) {
-            if (!targets_[i].is_met_by(p, farthest_)) continue;
+            if (!meets(p, targets_[i])) continue;
             if (!has_targets_) hits_.begin(fan_);
             has_targets_ = true;
             targets_[i].cut(p, [&](const cut_segment& segment) {
@@ -25814,6 +25891,16 @@ class ping_tracer {
         if (has_targets_) hits_.resolve();
     }
 
+    /// The bottom between two vertices of the profile.
+    struct facet {
+        const bottom_point &p, &q;
+        double x, dx, ddown;  ///< across the track: where it begins, its width; its fall
+        double begin, end;    ///< positions on the range axis, if labelled
+
+        /// A point at a fraction of the way from p to q: across and down.
+        glm::dvec2 at(double f) const { return {x + f * dx, p.down + f * ddown}; }
+    };
+
     /// Goes outwards along the profile, which rays meet in order. Bottom below the last ray that met it is in shadow.
     void trace_bottom(const ping_frame& ping) {
         double horizon_x = 0, horizon_down = 1;
@@ -25822,51 +25909,57 @@ class ping_tracer {
         if (has_targets_)
             for (std::size_t j = 0; j < k; ++j) hits_.cut_off(j, 0);
         const std::size_t rays = fan_.size();
+        const auto position = [&](std::size_t i) {
+            return Labelled ? axis_.position(profile_.x(i), profile_[i].down) : 0;
+        };
+        double next_begin = position(0);
         for (std::size_t i = 0; i + 1 < profile_.size(); ++i) {
             const double px = profile_.x(i), qx = profile_.x(i + 1);
             const bottom_point &p = profile_[i], &q = profile_[i + 1];
-            const double dx = qx - px, ddown = q.down - p.down;
+            const facet part{p, q, px, qx - px, q.down - p.down, next_begin, position(i + 1)};
+            next_begin = part.end;
             const double above = qx * horizon_down - q.down * horizon_x;
             if (!(above > 0)) {
-                if (Labelled && ddown == ddown) label(p, q, px, dx, 0, 1, caster_below_horizon(qx, q.down));
+                if (Labelled && part.ddown == part.ddown) label(part, 0, 1, caster_below_horizon({qx, q.down}));
                 continue;
             }
             // The part above the horizon. Labels divide it halfway between rays, as the rays' power does.
             const double below = px * horizon_down - p.down * horizon_x;
-            double from = below / (below - above);
-            if (Labelled && from > 0)
-                label(p, q, px, dx, 0, from, caster_below_horizon(px + from * dx, p.down + from * ddown));
+            double from = below > 0 ? 0 : below / (below - above);  // above 0: the first facet of a window
+            if (Labelled && from > 0) label(part, 0, from, caster_below_horizon(part.at(from)));
             double last_met = from;
             const std::size_t first = k;
             for (; k < rays && ping_fan::beyond(fan_[k], qx, q.down) >= 0; ++k) {
                 const ping_fan::ray& ray = fan_[k];
                 const double before = ping_fan::beyond(ray, px, p.down);
                 const double f = before / (before - ping_fan::beyond(ray, qx, q.down));
-                const double range = (px + f * dx) * ray.sine + (p.down + f * ddown) * ray.cosine;
+                const glm::dvec2 met = part.at(f);
+                const double range = met.x * ray.sine + met.y * ray.cosine;
                 if (Labelled && has_targets_ && k > first) {
                     const double between = 0.5 * (last_met + f);
-                    label(p, q, px, dx, from, between, occluder(k - 1, px + last_met * dx, p.down + last_met * ddown));
+                    label(part, from, between, occluder(k - 1, part.at(last_met)));
                     from = between;
                 }
                 last_met = f;
-                if (range <= farthest_ + axis_.bin)
-                    add_bottom_echo(ping, ray, k, range, dx, ddown, p, q, static_cast<float>(f));
+                if (range <= farthest_ + axis_.bin) add_bottom_echo(ping, k, range, part, static_cast<float>(f));
             }
             if constexpr (Labelled)
-                label(p, q, px, dx, from, 1,
-                      has_targets_ ? occluder(k > first ? k - 1 : k, px + last_met * dx, p.down + last_met * ddown)
-                                   : labels::is_lit);
+                label(part, from, 1,
+                      has_targets_ ? occluder(k > first ? k - 1 : k, part.at(last_met)) : labels::is_lit);
             horizon_x = qx, horizon_down = q.down;
         }
     }
 
-    void add_bottom_echo(const ping_frame& ping, const ping_fan::ray& ray, std::size_t k, double range, double dx,
-                         double ddown, const bottom_point& p, const bottom_point& q, float f) {
+    /// @param f  where the ray meets the facet
+    INSONIFY_INLINE void add_bottom_echo(const ping_frame& ping, std::size_t k, double range, const facet& part,
+                                         float f) {
         // Removes targets that are buried or behind a rise.
         const double covered = has_targets_ ? hits_.cut_off(k, range) : 0;
         if (covered >= 1) return;
+        const ping_fan::ray& ray = fan_[k];
+        const bottom_point &p = part.p, &q = part.q;
         const float at = axis_.position(ray, range),
-                    half = (std::min)(axis_.half_length(ray, range, dx, ddown), max_half_length);
+                    half = (std::min)(axis_.half_length(ray, range, part.dx, part.ddown), max_half_length);
         const auto sine = static_cast<float>(ray.sine), cosine = static_cast<float>(ray.cosine);
         const float slope = p.slope + f * (q.slope - p.slope);
         const float slope_along = p.slope_along + f * (q.slope_along - p.slope_along);
@@ -25875,8 +25968,26 @@ class ping_tracer {
                                    numeric::square_root(1 + slope * slope + slope_along * slope_along);
         const float power = static_cast<float>(1 - covered) * power_of(k, range, grazing_sine) *
                             materials_[static_cast<std::size_t>(f < 0.5f ? p.type : q.type)].reflectivity;
-        distribute(bins_.size(), at - half, at + half,
+        extent echo{at - half, at + half};
+        if (2 * half < static_cast<float>(ray.width)) echo = perpendicular_echo(k, at, part);
+        distribute(bins_.size(), echo.low, echo.high,
                    [&](std::size_t bin, float fraction, float) { bins_[bin].bottom += power * fraction; });
+    }
+
+    struct extent {
+        float low, high;  ///< positions on the range axis
+    };
+    /// The echo of a ray at right angles to a facet, whose edges may lie on either side of the facet's nearest point.
+    /// `half_length`, of first order in the ray's width, does not hold there.
+    INSONIFY_RARE extent perpendicular_echo(std::size_t k, float middle, const facet& part) const {
+        const auto at_edge = [&](std::size_t edge) {
+            const ping_fan::direction d = fan_.at(static_cast<double>(fan_.first() + edge));
+            const glm::dvec2 met =
+                part.at((part.x * d.cosine - part.p.down * d.sine) / (part.ddown * d.sine - part.dx * d.cosine));
+            return static_cast<float>(axis_.position(met.x, met.y));
+        };
+        const float a = at_edge(k), b = at_edge(k + 1);
+        return {(std::min)({middle, a, b}), (std::max)({middle, a, b})};
     }
 
     void add_target_echoes() {
@@ -25894,23 +26005,24 @@ class ping_tracer {
     }
 
     /// The target between the sonar and a point of ray k, or is_lit.
-    std::uint16_t occluder(std::size_t k, double x, double down) const {
-        return hits_.occluder(k, numeric::square_root(x * x + down * down));
+    std::uint16_t occluder(std::size_t k, const glm::dvec2& p) const {
+        return hits_.occluder(k, numeric::square_root(p.x * p.x + p.y * p.y));
     }
     /// The caster of a shadow below the horizon: a target, if one occludes the point, or the seabed.
-    std::uint16_t caster_below_horizon(double x, double down) const {
-        const std::uint16_t target = has_targets_ ? occluder(fan_.first_over(x, down), x, down) : labels::is_lit;
+    std::uint16_t caster_below_horizon(const glm::dvec2& p) const {
+        const std::uint16_t target = has_targets_ ? occluder(fan_.first_over(p.x, p.y), p) : labels::is_lit;
         return target == labels::is_lit ? labels::by_seabed : target;
     }
 
-    /// Adds a piece of bottom to the labels: between two fractions of the way from p to q, with the caster of its
+    /// Adds a piece of bottom to the labels: between two fractions of the way along a facet, with the caster of its
     /// shadow or is_lit.
-    void label(const bottom_point& p, const bottom_point& q, double px, double dx, double from, double to,
-               std::uint16_t caster) {
-        const double down = q.down - p.down;
-        const double a = axis_.position(px + from * dx, p.down + from * down),
-                     b = axis_.position(px + to * dx, p.down + to * down);
-        const std::uint8_t type = from + to < 1 ? p.type : q.type;
+    void label(const facet& part, double from, double to, std::uint16_t caster) {
+        const auto position = [&](double f) {
+            const glm::dvec2 at = part.at(f);
+            return axis_.position(at.x, at.y);
+        };
+        const double a = from > 0 ? position(from) : part.begin, b = to < 1 ? position(to) : part.end;
+        const std::uint8_t type = from + to < 1 ? part.p.type : part.q.type;
         distribute(bins_.size(), static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
                    [&](std::size_t bin, float, float length) { bins_.add_seabed(bin, type, caster, length); });
     }
@@ -25928,12 +26040,13 @@ class ping_tracer {
     Law law_;
     const equation_interface& equation_;
     seabed::height_range relief_;
+    range_bins window_;
+    double cell_;
     double range_, farthest_ = 0;  ///< of the last bin: on the range axis, and slant
     range_axis axis_;
     double step_;
     bottom_profile profile_;
-    float spacing_;
-    double top_ = -1e30, foot_ = 1e30;         ///< of all targets
+    double top_ = -1e30;                       ///< of all targets
     std::array<double, 3> attitude_{0, 1, 1};  ///< sine and cosine of the roll, cosine of the pitch
     ping_fan fan_;
     dynamic_array<float> ray_power_;
@@ -26054,8 +26167,7 @@ class recorder {
                 begin = (std::min)(begin, tracer::start(window_, cell, relief, p, targets_));
             bottom.cover(frames, begin, tracer::reach(window_, cell), ex);
             bulk_ranges(ex, count, grain, [&](std::size_t from, std::size_t to) {
-                tracer pings(scene_, materials_, targets_, bottom, window_, options_.law, equation_, cell, relief,
-                             begin);
+                tracer pings(scene_, materials_, targets_, bottom, window_, options_.law, equation_, cell, relief);
                 bin_factors losses = first_losses;
                 for (std::size_t i = from; i < to; ++i)
                     write(start + i, pings.trace(frames[i]), losses_at(track_[start + i], losses));

@@ -45,7 +45,13 @@ inline facet facet_at(image_view<const float> heights, double u, double v) {
     const double side = static_cast<double>(lower ? heights(x.cell + 1, y.cell) : heights(x.cell, y.cell + 1));
     const double rise_x = lower ? side - corner : opposite - side;
     const double rise_y = lower ? opposite - side : side - corner;
-    const double height = corner + x.across * rise_x + y.across * rise_y;
+    double height = corner + x.across * rise_x + y.across * rise_y;
+    if (!numeric::is_finite(height)) {
+        // A vertex without data counts only where it has a share: the gap's border has heights.
+        const auto part = [](double share, double of) { return share > 0 ? share * of : 0.0; };
+        const double larger = (std::max)(x.across, y.across), smaller = (std::min)(x.across, y.across);
+        height = part(1 - larger, corner) + part(larger - smaller, side) + part(smaller, opposite);
+    }
     return {numeric::is_finite(height) ? height : (std::numeric_limits<double>::quiet_NaN)(), rise_x, rise_y};
 }
 
@@ -62,7 +68,7 @@ class heightfield_sampler;
 ///
 /// The surface is that of the drawn mesh: the diagonal from vertex (i, j) to (i + 1, j + 1) divides each cell into two
 /// plane triangles. Heights outside are those of the nearest edge. A vertex that is NaN or infinite has no data:
-/// queries on its triangles return NaN, and the mesh leaves them out.
+/// queries within its triangles return NaN, and the mesh leaves them out.
 struct heightfield {
     image<float> heights{};       ///< metres above the datum, at least 2 x 2 vertices
     image<type> types{};          ///< one per vertex; empty: all are `fallback`

@@ -539,16 +539,16 @@ TEST_CASE("A target below the seabed, seen through a gap, returns the same in a 
     s.seabed = holed;
     s.add(in::cube{}, {.position = {2.5, 0, -2.5}, .yaw = 0.3f}, "cube");
     in::side_scan rig{.altitude = 5, .pings = 1, .range = 16, .bins = 320};
-    const auto whole = in::render(s, rig);
+    const auto whole = in::render(s, rig, {.cell = 0.02});  // a ray more or less through the gap matters little
     rig.first_range = 7;
     rig.bins = 180;
-    const auto part = in::render(s, rig);
+    const auto part = in::render(s, rig, {.cell = 0.02});
     double sum = 0, of_whole = 0;
     for (int b = 0; b < 180; ++b)
         if (part.labels.instance(b, 0) == 1 || whole.labels.instance(140 + b, 0) == 1)
             sum += static_cast<double>(part.image(b, 0)), of_whole += static_cast<double>(whole.image(140 + b, 0));
     CHECK(of_whole > 0);
-    CHECK(sum == Approx(of_whole).epsilon(0.02));
+    CHECK(sum == Approx(of_whole).epsilon(0.01));
     CHECK(part.labels.targets[0].box.width() == whole.labels.targets[0].box.width());
 }
 

@@ -25,38 +25,30 @@ struct bottom_point {
 /// Samples the profile of one ping after the other, reusing memory.
 class bottom_profile {
   public:
-    /// @param start  lower bound of the first vertex's distance across the track
-    bottom_profile(const bottom_tiles& tiles, double step, double start, double range)
-        : tiles_(tiles),
-          step_(step),
-          first_(static_cast<std::size_t>(-numeric::floor_to_int(-start / step))),
-          end_(static_cast<std::size_t>(numeric::floor_to_int(range / step)) + 2) {}
+    bottom_profile(const bottom_tiles& tiles, double step, double range)
+        : tiles_(tiles), step_(step), end_(static_cast<std::size_t>(numeric::floor_to_int(range / step)) + 2) {}
 
-    void sample(const ping_frame& p) {
+    /// @param start  lower bound of the first vertex's distance across the track
+    void sample(const ping_frame& p, double start) {
+        first_ = static_cast<std::size_t>(-numeric::floor_to_int(-start / step_));
         points_.resize(end_ - first_);
         lowest_ = 1e30, highest_ = -1e30;
         const glm::vec2 across(p.across()), along(p.along());
         const double altitude = p.position().z;
+        const bottom_tiles::depth_range depths = tiles_.depths(p);
         for (std::size_t i = 0; i < points_.size(); ++i) {
-            bottom_vertex v;
-            double depth;
+            cut at;
             if (p.is_level()) {
-                const glm::dvec2 at = p.world(x(i), 0);
-                v = tiles_.at(at.x, at.y);
-                depth = altitude - static_cast<double>(v.height);
+                const glm::dvec2 below = p.world(x(i), 0);
+                at.vertex = tiles_.at(below.x, below.y);
+                at.down = altitude - static_cast<double>(at.vertex.height);
             } else {
-                // The position depends on the depth: a fixed-point iteration, which converges on slopes below
-                // 1 / tan(pitch).
-                depth = i > 0 ? points_[i - 1].down : 0;
-                for (int step = 0; step < 5; ++step) {
-                    const glm::dvec2 at = p.below(x(i), tiles_.clamped(p, depth));
-                    v = tiles_.at(at.x, at.y);
-                    depth = (altitude - static_cast<double>(v.height)) / p.cosine_pitch();
-                }
+                at = cut_near(p, x(i), i > 0 ? points_[i - 1].down : depths.shallowest, depths);
             }
+            const bottom_vertex& v = at.vertex;
             const auto height = static_cast<double>(v.height);
-            points_[i] = {depth, v.slope_x * across.x + v.slope_y * across.y, v.slope_x * along.x + v.slope_y * along.y,
-                          static_cast<std::uint8_t>(v.type)};
+            points_[i] = {at.down, v.slope_x * across.x + v.slope_y * across.y,
+                          v.slope_x * along.x + v.slope_y * along.y, static_cast<std::uint8_t>(v.type)};
             lowest_ = (std::min)(lowest_, height);  // in this order, NaN is ignored
             highest_ = (std::max)(highest_, height);
         }
@@ -75,9 +67,58 @@ class bottom_profile {
     }
 
   private:
+    /// Where the plane of a pitched fan cuts the seabed, at a distance across the track.
+    struct cut {
+        double down;
+        bottom_vertex vertex;
+    };
+
+    /// The seabed below the fan's point (x, down), and the depth along the fan at which it has this height.
+    cut seabed_at(const ping_frame& p, double x, double down) const {
+        const glm::dvec2 at = p.below(x, down);
+        const bottom_vertex v = tiles_.at(at.x, at.y);
+        return {(p.position().z - static_cast<double>(v.height)) / p.cosine_pitch(), v};
+    }
+
+    /// The cut near a depth. The seabed's position depends on the depth: a fixed-point iteration, which converges on
+    /// slopes below 1 / tan(pitch); elsewhere and beside gaps, a search.
+    cut cut_near(const ping_frame& p, double x, double down, const bottom_tiles::depth_range& depths) const {
+        cut found{down, {}};
+        double last = down;
+        for (int i = 0; i < 5; ++i) {
+            // In this order, NaN becomes the shallowest depth.
+            last = (std::min)((std::max)(depths.shallowest, found.down), depths.deepest);
+            found = seabed_at(p, x, last);
+        }
+        return numeric::abs(found.down - last) <= 0.01 * step_ ? found : first_cut(p, x, depths);
+    }
+
+    /// The first cut, from above.
+    cut first_cut(const ping_frame& p, double x, const bottom_tiles::depth_range& depths) const {
+        constexpr int halvings = 20;
+        const double range = depths.deepest - depths.shallowest;
+        const std::int64_t steps = numeric::floor_to_int(range * numeric::abs(p.sine_pitch()) / step_) + 1;
+        double above = depths.shallowest;
+        bool is_above = true;
+        for (std::int64_t i = 0; i <= steps; ++i) {
+            const double at = depths.shallowest + range * static_cast<double>(i) / static_cast<double>(steps);
+            const double met = seabed_at(p, x, at).down;
+            if (is_above && met <= at) {
+                double below = at;
+                for (int halving = 0; halving < halvings; ++halving) {
+                    const double middle = 0.5 * (above + below);
+                    (seabed_at(p, x, middle).down > middle ? above : below) = middle;
+                }
+                return {below, seabed_at(p, x, below).vertex};
+            }
+            is_above = met > at, above = at;
+        }
+        return {std::numeric_limits<double>::quiet_NaN(), {std::numeric_limits<float>::quiet_NaN(), 0, 0, 0}};
+    }
+
     const bottom_tiles& tiles_;
     double step_;
-    std::size_t first_, end_;
+    std::size_t first_ = 0, end_;
     double lowest_ = 0, highest_ = 0;
     dynamic_array<bottom_point> points_;
 };

@@ -54,6 +54,7 @@ class bottom_tiles {
         mark(pings, steps);
         const dynamic_array<tile_run> runs = number_marked();
         const std::size_t tiles = runs.empty() ? 0 : std::size_t{runs.back().slot} + runs.back().count;
+        require(tiles < max_tiles, "seabed tiles", tiles, "below 2^18, which is 17 GB: take larger cells");
         vertices_.reset(new bottom_vertex[tiles * tile_size]);
         ex.bulk(runs.size(), [&](std::size_t i) { sample(runs[i]); });
         sampled_ += tiles * tile_size;
@@ -76,15 +77,22 @@ class bottom_tiles {
         const bottom_vertex &b = a[1], &c = a[stride], &d = a[stride + 1];
         const float wa = (1 - right) * (1 - up), wb = right * (1 - up), wc = (1 - right) * up, wd = right * up;
         const bottom_vertex& nearest = up < 0.5f ? (right < 0.5f ? *a : b) : (right < 0.5f ? c : d);
-        return {wa * a->height + wb * b.height + wc * c.height + wd * d.height,
-                wa * a->slope_x + wb * b.slope_x + wc * c.slope_x + wd * d.slope_x,
-                wa * a->slope_y + wb * b.slope_y + wc * c.slope_y + wd * d.slope_y, nearest.type};
+        const bottom_vertex mean{wa * a->height + wb * b.height + wc * c.height + wd * d.height,
+                                 wa * a->slope_x + wb * b.slope_x + wc * c.slope_x + wd * d.slope_x,
+                                 wa * a->slope_y + wb * b.slope_y + wc * c.slope_y + wd * d.slope_y, nearest.type};
+        return mean.height == mean.height ? mean : beside_gap(mean, a, right, up);
     }
 
-    /// Clamps a depth along a pitched fan to the seabed's bounds; NaN becomes the lower one.
-    double clamped(const ping_frame& p, double depth) const {
-        const auto [shallowest, deepest] = depths(p);
-        return depth > shallowest ? (std::min)(depth, deepest) : shallowest;
+    /// Bounds of the seabed's depth along a pitched fan; 0 for level ones, which do not need them.
+    struct depth_range {
+        double shallowest, deepest;
+    };
+    /// @throws invalid_input for pitched pings over a seabed that does not state its heights
+    depth_range depths(const ping_frame& p) const {
+        if (p.is_level() || range_.empty()) return {0, 0};
+        seabed::detail::require_finite(range_);
+        return {(p.position().z - range_.highest) / p.cosine_pitch(),
+                (p.position().z - range_.lowest) / p.cosine_pitch()};
     }
 
     /// Vertices evaluated so far.
@@ -94,6 +102,7 @@ class bottom_tiles {
     static constexpr int shift = 6;
     static constexpr std::size_t stride = cells + 1;  // with the first vertices of the next tile
     static constexpr std::size_t tile_size = stride * stride;
+    static constexpr std::size_t max_tiles = 1 << 18;
     static constexpr std::uint32_t absent = 0xFFFFFFFFu;
     static_assert(1 << shift == cells);
 
@@ -159,15 +168,6 @@ class bottom_tiles {
         return static_cast<std::size_t>((y - first_y_) * columns_ + (x - first_x_));
     }
 
-    /// Bounds of the seabed's depth along a pitched fan; 0 for level ones, which do not need them.
-    /// @throws invalid_input for pitched pings over a seabed that does not state its heights
-    std::pair<double, double> depths(const ping_frame& p) const {
-        if (p.is_level() || range_.empty()) return {0, 0};
-        seabed::detail::require_finite(range_);
-        return {(p.position().z - range_.highest) / p.cosine_pitch(),
-                (p.position().z - range_.lowest) / p.cosine_pitch()};
-    }
-
     /// Adjacent tiles along x, sampled together: long rows cost less per sample.
     struct tile_run {
         std::int64_t x, y;
@@ -193,6 +193,18 @@ class bottom_tiles {
                     runs.push_back({first_x_ + x, first_y_ + y, slot, 1});
             }
         return runs;
+    }
+
+    /// Where a vertex of the cell has no height: vertices without a share don't count, so that the border of a gap has
+    /// heights.
+    INSONIFY_RARE static bottom_vertex beside_gap(bottom_vertex mean, const bottom_vertex* corner, float right,
+                                                  float up) {
+        const auto between = [](float share, float from, float to) {
+            return (share < 1 ? (1 - share) * from : 0.0f) + (share > 0 ? share * to : 0.0f);
+        };
+        mean.height = between(up, between(right, corner[0].height, corner[1].height),
+                              between(right, corner[stride].height, corner[stride + 1].height));
+        return mean;
     }
 
     /// Samples a run, with a margin of one vertex for the slopes.

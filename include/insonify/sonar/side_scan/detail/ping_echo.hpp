@@ -29,36 +29,37 @@ class ping_tracer {
   public:
     ping_tracer(const scene& s, const bottom_materials& materials, std::span<const sliced_target> targets,
                 const bottom_tiles& bottom, const range_bins& window, const Law& law,
-                const equation_interface& equation, double cell, const seabed::height_range& relief, double start)
+                const equation_interface& equation, double cell, const seabed::height_range& relief)
         : scene_(s),
           materials_(materials),
           targets_(targets),
           law_(law),
           equation_(equation),
           relief_(relief),
+          window_(window),
+          cell_(cell),
           range_(static_cast<double>(window.range)),
           axis_{static_cast<double>(window.first_range), window.bin(), window.counts_time},
           step_((std::min)(axis_.bin, cell)),
-          profile_(bottom, (std::max)(step_, 0.5 * cell), start, range_),
-          spacing_(window.ping_spacing),
+          profile_(bottom, (std::max)(step_, 0.5 * cell), range_),
           bins_(static_cast<std::size_t>(window.bins)) {
-        for (const sliced_target& t : targets) {
-            top_ = (std::max)(top_, t.top());
-            foot_ = (std::min)(foot_, t.foot());
-        }
+        for (const sliced_target& t : targets) top_ = (std::max)(top_, t.top());
     }
 
     /// @returns one per bin, valid until the next call
     std::span<const echo_bin> trace(const ping_frame& p) {
         bins_.clear();
-        profile_.sample(p);
+        profile_.sample(p, start(window_, cell_, relief_, p, targets_));
         const double altitude = p.position().z;
+        double foot = 1e30;
+        for (const sliced_target& t : targets_)
+            if (meets(p, t)) foot = (std::min)(foot, t.foot());
         double lowest = profile_.lowest(), highest = profile_.highest();
         if (skips_foreground(relief_, axis_.first, p)) lowest = relief_.lowest, highest = relief_.highest;
         if (!(lowest <= highest))  // no seabed here: rays for the targets alone
-            lowest = highest = (std::min)(foot_, altitude - range_ / 16);
+            lowest = highest = (std::min)(foot, altitude - range_ / 16);
         // Targets below the seabed may be in the window closer to nadir than the seabed is.
-        if (axis_.first > 0 && foot_ < lowest && profile_.has_gaps()) lowest = foot_;
+        if (axis_.first > 0 && foot < lowest && profile_.has_gaps()) lowest = foot;
         // In a pitched fan depths are longer; level ones bound the heights above.
         const double stretch = 1 / p.cosine_pitch();
         const fan_shape shape =
@@ -84,8 +85,9 @@ class ping_tracer {
         const double lowest = altitude - relief.lowest, begin = first - 4 * window.bin();
         const double square = window.counts_time ? begin * begin - lowest * lowest : begin * begin;
         const double place = begin > 0 && square > 0 ? numeric::square_root(square) - 4 * cell : 0;
+        // Targets that are nearer than the window's seabed, or all of whose echo comes through a gap.
         for (const sliced_target& t : targets)
-            if (t.is_met_by(p, 1e9) && t.nearest(p) < place) return 0;
+            if (t.is_met_by(p, 1e9) && (t.nearest(p) < place || t.top() < relief.lowest)) return 0;
         // The highest possible crest that occludes the lowest possible ground there.
         return (std::max)(0.0, place * (altitude - relief.highest) / lowest - 4 * cell);
     }
@@ -111,7 +113,7 @@ class ping_tracer {
         attitude_ = attitude;
         const auto [sine_roll, cosine_roll, cosine_pitch] = attitude;
         // A pitched fan is thinner than the spacing of pings along the track.
-        const float thickness = spacing_ * static_cast<float>(cosine_pitch);
+        const float thickness = window_.ping_spacing * static_cast<float>(cosine_pitch);
         for (std::size_t k = 0; k < fan_.size(); ++k) {
             const double across = fan_[k].sine * cosine_roll + fan_[k].cosine * sine_roll,
                          down = fan_[k].cosine * cosine_roll - fan_[k].sine * sine_roll;
@@ -119,10 +121,15 @@ class ping_tracer {
         }
     }
 
+    /// Whether a target may echo within the range.
+    bool meets(const ping_frame& p, const sliced_target& t) const {
+        return t.is_met_by(p, axis_.counts_time ? range_ : 1e30) && t.nearest(p) < range_;
+    }
+
     void gather_targets(const ping_frame& p) {
         has_targets_ = false;
         for (std::size_t i = 0; i < targets_.size(); ++i) {
-            if (!targets_[i].is_met_by(p, farthest_)) continue;
+            if (!meets(p, targets_[i])) continue;
             if (!has_targets_) hits_.begin(fan_);
             has_targets_ = true;
             targets_[i].cut(p, [&](const cut_segment& segment) {
@@ -132,6 +139,16 @@ class ping_tracer {
         if (has_targets_) hits_.resolve();
     }
 
+    /// The bottom between two vertices of the profile.
+    struct facet {
+        const bottom_point &p, &q;
+        double x, dx, ddown;  ///< across the track: where it begins, its width; its fall
+        double begin, end;    ///< positions on the range axis, if labelled
+
+        /// A point at a fraction of the way from p to q: across and down.
+        glm::dvec2 at(double f) const { return {x + f * dx, p.down + f * ddown}; }
+    };
+
     /// Goes outwards along the profile, which rays meet in order. Bottom below the last ray that met it is in shadow.
     void trace_bottom(const ping_frame& ping) {
         double horizon_x = 0, horizon_down = 1;
@@ -140,51 +157,57 @@ class ping_tracer {
         if (has_targets_)
             for (std::size_t j = 0; j < k; ++j) hits_.cut_off(j, 0);
         const std::size_t rays = fan_.size();
+        const auto position = [&](std::size_t i) {
+            return Labelled ? axis_.position(profile_.x(i), profile_[i].down) : 0;
+        };
+        double next_begin = position(0);
         for (std::size_t i = 0; i + 1 < profile_.size(); ++i) {
             const double px = profile_.x(i), qx = profile_.x(i + 1);
             const bottom_point &p = profile_[i], &q = profile_[i + 1];
-            const double dx = qx - px, ddown = q.down - p.down;
+            const facet part{p, q, px, qx - px, q.down - p.down, next_begin, position(i + 1)};
+            next_begin = part.end;
             const double above = qx * horizon_down - q.down * horizon_x;
             if (!(above > 0)) {
-                if (Labelled && ddown == ddown) label(p, q, px, dx, 0, 1, caster_below_horizon(qx, q.down));
+                if (Labelled && part.ddown == part.ddown) label(part, 0, 1, caster_below_horizon({qx, q.down}));
                 continue;
             }
             // The part above the horizon. Labels divide it halfway between rays, as the rays' power does.
             const double below = px * horizon_down - p.down * horizon_x;
-            double from = below / (below - above);
-            if (Labelled && from > 0)
-                label(p, q, px, dx, 0, from, caster_below_horizon(px + from * dx, p.down + from * ddown));
+            double from = below > 0 ? 0 : below / (below - above);  // above 0: the first facet of a window
+            if (Labelled && from > 0) label(part, 0, from, caster_below_horizon(part.at(from)));
             double last_met = from;
             const std::size_t first = k;
             for (; k < rays && ping_fan::beyond(fan_[k], qx, q.down) >= 0; ++k) {
                 const ping_fan::ray& ray = fan_[k];
                 const double before = ping_fan::beyond(ray, px, p.down);
                 const double f = before / (before - ping_fan::beyond(ray, qx, q.down));
-                const double range = (px + f * dx) * ray.sine + (p.down + f * ddown) * ray.cosine;
+                const glm::dvec2 met = part.at(f);
+                const double range = met.x * ray.sine + met.y * ray.cosine;
                 if (Labelled && has_targets_ && k > first) {
                     const double between = 0.5 * (last_met + f);
-                    label(p, q, px, dx, from, between, occluder(k - 1, px + last_met * dx, p.down + last_met * ddown));
+                    label(part, from, between, occluder(k - 1, part.at(last_met)));
                     from = between;
                 }
                 last_met = f;
-                if (range <= farthest_ + axis_.bin)
-                    add_bottom_echo(ping, ray, k, range, dx, ddown, p, q, static_cast<float>(f));
+                if (range <= farthest_ + axis_.bin) add_bottom_echo(ping, k, range, part, static_cast<float>(f));
             }
             if constexpr (Labelled)
-                label(p, q, px, dx, from, 1,
-                      has_targets_ ? occluder(k > first ? k - 1 : k, px + last_met * dx, p.down + last_met * ddown)
-                                   : labels::is_lit);
+                label(part, from, 1,
+                      has_targets_ ? occluder(k > first ? k - 1 : k, part.at(last_met)) : labels::is_lit);
             horizon_x = qx, horizon_down = q.down;
         }
     }
 
-    void add_bottom_echo(const ping_frame& ping, const ping_fan::ray& ray, std::size_t k, double range, double dx,
-                         double ddown, const bottom_point& p, const bottom_point& q, float f) {
+    /// @param f  where the ray meets the facet
+    INSONIFY_INLINE void add_bottom_echo(const ping_frame& ping, std::size_t k, double range, const facet& part,
+                                         float f) {
         // Removes targets that are buried or behind a rise.
         const double covered = has_targets_ ? hits_.cut_off(k, range) : 0;
         if (covered >= 1) return;
+        const ping_fan::ray& ray = fan_[k];
+        const bottom_point &p = part.p, &q = part.q;
         const float at = axis_.position(ray, range),
-                    half = (std::min)(axis_.half_length(ray, range, dx, ddown), max_half_length);
+                    half = (std::min)(axis_.half_length(ray, range, part.dx, part.ddown), max_half_length);
         const auto sine = static_cast<float>(ray.sine), cosine = static_cast<float>(ray.cosine);
         const float slope = p.slope + f * (q.slope - p.slope);
         const float slope_along = p.slope_along + f * (q.slope_along - p.slope_along);
@@ -193,8 +216,26 @@ class ping_tracer {
                                    numeric::square_root(1 + slope * slope + slope_along * slope_along);
         const float power = static_cast<float>(1 - covered) * power_of(k, range, grazing_sine) *
                             materials_[static_cast<std::size_t>(f < 0.5f ? p.type : q.type)].reflectivity;
-        distribute(bins_.size(), at - half, at + half,
+        extent echo{at - half, at + half};
+        if (2 * half < static_cast<float>(ray.width)) echo = perpendicular_echo(k, at, part);
+        distribute(bins_.size(), echo.low, echo.high,
                    [&](std::size_t bin, float fraction, float) { bins_[bin].bottom += power * fraction; });
+    }
+
+    struct extent {
+        float low, high;  ///< positions on the range axis
+    };
+    /// The echo of a ray at right angles to a facet, whose edges may lie on either side of the facet's nearest point.
+    /// `half_length`, of first order in the ray's width, does not hold there.
+    INSONIFY_RARE extent perpendicular_echo(std::size_t k, float middle, const facet& part) const {
+        const auto at_edge = [&](std::size_t edge) {
+            const ping_fan::direction d = fan_.at(static_cast<double>(fan_.first() + edge));
+            const glm::dvec2 met =
+                part.at((part.x * d.cosine - part.p.down * d.sine) / (part.ddown * d.sine - part.dx * d.cosine));
+            return static_cast<float>(axis_.position(met.x, met.y));
+        };
+        const float a = at_edge(k), b = at_edge(k + 1);
+        return {(std::min)({middle, a, b}), (std::max)({middle, a, b})};
     }
 
     void add_target_echoes() {
@@ -212,23 +253,24 @@ class ping_tracer {
     }
 
     /// The target between the sonar and a point of ray k, or is_lit.
-    std::uint16_t occluder(std::size_t k, double x, double down) const {
-        return hits_.occluder(k, numeric::square_root(x * x + down * down));
+    std::uint16_t occluder(std::size_t k, const glm::dvec2& p) const {
+        return hits_.occluder(k, numeric::square_root(p.x * p.x + p.y * p.y));
     }
     /// The caster of a shadow below the horizon: a target, if one occludes the point, or the seabed.
-    std::uint16_t caster_below_horizon(double x, double down) const {
-        const std::uint16_t target = has_targets_ ? occluder(fan_.first_over(x, down), x, down) : labels::is_lit;
+    std::uint16_t caster_below_horizon(const glm::dvec2& p) const {
+        const std::uint16_t target = has_targets_ ? occluder(fan_.first_over(p.x, p.y), p) : labels::is_lit;
         return target == labels::is_lit ? labels::by_seabed : target;
     }
 
-    /// Adds a piece of bottom to the labels: between two fractions of the way from p to q, with the caster of its
+    /// Adds a piece of bottom to the labels: between two fractions of the way along a facet, with the caster of its
     /// shadow or is_lit.
-    void label(const bottom_point& p, const bottom_point& q, double px, double dx, double from, double to,
-               std::uint16_t caster) {
-        const double down = q.down - p.down;
-        const double a = axis_.position(px + from * dx, p.down + from * down),
-                     b = axis_.position(px + to * dx, p.down + to * down);
-        const std::uint8_t type = from + to < 1 ? p.type : q.type;
+    void label(const facet& part, double from, double to, std::uint16_t caster) {
+        const auto position = [&](double f) {
+            const glm::dvec2 at = part.at(f);
+            return axis_.position(at.x, at.y);
+        };
+        const double a = from > 0 ? position(from) : part.begin, b = to < 1 ? position(to) : part.end;
+        const std::uint8_t type = from + to < 1 ? part.p.type : part.q.type;
         distribute(bins_.size(), static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
                    [&](std::size_t bin, float, float length) { bins_.add_seabed(bin, type, caster, length); });
     }
@@ -246,12 +288,13 @@ class ping_tracer {
     Law law_;
     const equation_interface& equation_;
     seabed::height_range relief_;
+    range_bins window_;
+    double cell_;
     double range_, farthest_ = 0;  ///< of the last bin: on the range axis, and slant
     range_axis axis_;
     double step_;
     bottom_profile profile_;
-    float spacing_;
-    double top_ = -1e30, foot_ = 1e30;         ///< of all targets
+    double top_ = -1e30;                       ///< of all targets
     std::array<double, 3> attitude_{0, 1, 1};  ///< sine and cosine of the roll, cosine of the pitch
     ping_fan fan_;
     dynamic_array<float> ray_power_;

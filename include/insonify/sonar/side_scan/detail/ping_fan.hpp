@@ -56,13 +56,15 @@ class ping_fan {
         const auto tangent_at = [](double r, double height) {
             return r > height ? numeric::square_root(r * r - height * height) / height : 0;
         };
-        const double spacing = step / low, level_end = tangent_at(range, low);
-        const double end = shape.above_highest > 0
-                               ? (std::min)(tangent_at(range, shape.above_highest), 2 * level_end + 1)
-                               : 2 * level_end + 1;
+        const double spacing = step / low;
+        // Higher ground needs flatter rays to the range's end: as far as it lies below a sixteenth of the lowest's
+        // depth.
+        const double flattest = (std::max)(1.0, 16 * range / low);
+        const double end =
+            shape.above_highest > 0 ? (std::min)(tangent_at(range, shape.above_highest), flattest) : flattest;
         const std::int64_t first = numeric::floor_to_int(tangent_at(first_range, low) / spacing);
         const std::int64_t last = numeric::floor_to_int(end / spacing) + 1;
-        require(last - first < (1 << 24), "rays of a ping", last - first, "below 2^24: take wider bins");
+        require(last - first < (1 << 25), "rays of a ping", last - first, "below 2^25: take wider bins");
         rays_.reserve(static_cast<std::size_t>(last - first));
         for (std::int64_t i = first; i < last; ++i) {
             const double tangent = (static_cast<double>(i) + 0.5) * spacing;

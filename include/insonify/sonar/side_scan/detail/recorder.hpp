@@ -110,8 +110,7 @@ class recorder {
                 begin = (std::min)(begin, tracer::start(window_, cell, relief, p, targets_));
             bottom.cover(frames, begin, tracer::reach(window_, cell), ex);
             bulk_ranges(ex, count, grain, [&](std::size_t from, std::size_t to) {
-                tracer pings(scene_, materials_, targets_, bottom, window_, options_.law, equation_, cell, relief,
-                             begin);
+                tracer pings(scene_, materials_, targets_, bottom, window_, options_.law, equation_, cell, relief);
                 bin_factors losses = first_losses;
                 for (std::size_t i = from; i < to; ++i)
                     write(start + i, pings.trace(frames[i]), losses_at(track_[start + i], losses));

@@ -217,9 +217,15 @@ class target_hits {
         double covered = 0, largest = 0;
         for (std::size_t i = first_[k]; i < end; ++i) {
             covered += hits_[i].fraction;
-            if (hits_[i].fraction <= largest) continue;
-            largest = hits_[i].fraction;
-            occluders_[k] = {numeric::square_root(hits_[i].square_range()), hits_[i].instance};
+            double of_target = 0, nearest = hits_[i].square_range();
+            for (std::size_t j = i; j < end; ++j) {
+                if (hits_[j].instance != hits_[i].instance || !(hits_[j].fraction > 0)) continue;
+                of_target += hits_[j].fraction;
+                nearest = (std::min)(nearest, hits_[j].square_range());
+            }
+            if (of_target <= largest) continue;
+            largest = of_target;
+            occluders_[k] = {numeric::square_root(nearest), hits_[i].instance};
         }
         if (!(covered > 0.5)) occluders_[k].range = std::numeric_limits<double>::infinity();
     }

@@ -36,11 +36,13 @@ class sliced_target {
         centre_ = transform_point(to_world_, box.centre());
         const glm::dvec3 half = 0.5 * box.size();
         radius_ = numeric::square_root(numeric::dot(half, half)) * static_cast<double>(t.placement.scale) * (1 + 1e-6);
+        const glm::dmat3& turn = to_world_.linear;
+        rise_ = numeric::abs(turn[0].z) * half.x + numeric::abs(turn[1].z) * half.y + numeric::abs(turn[2].z) * half.z;
     }
 
-    /// Bounds of its heights above the datum.
-    double top() const { return centre_.z + radius_; }
-    double foot() const { return radius_ > 0 ? centre_.z - radius_ : 1e30; }
+    /// Bounds of its heights above the datum: those of its box.
+    double top() const { return centre_.z + rise_; }
+    double foot() const { return radius_ > 0 ? centre_.z - rise_ : 1e30; }
 
     bool is_met_by(const ping_frame& p, double range) const {
         const glm::dvec3 centre = p(centre_);
@@ -102,7 +104,8 @@ class sliced_target {
     std::shared_ptr<const plane_tree> tree_;
     affine to_world_;
     glm::dvec3 centre_{0, 0, -1e30};
-    double radius_ = 0;
+    double radius_ = 0;  ///< of a ball around it
+    double rise_ = 0;    ///< from the centre to the top
 };
 
 /// The targets of a scene; those with the same mesh share its tree.

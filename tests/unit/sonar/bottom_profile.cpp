@@ -1,0 +1,234 @@
+// The bottom as a ping meets it: ground close below the sonar, gaps, slopes under a pitched fan, the first return, and
+// windows of ranges, which must hold what the whole recording holds there.
+#include <insonify/all.hpp>
+
+#include <cmath>
+#include <functional>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+
+namespace {
+
+constexpr float no_data = std::numeric_limits<float>::quiet_NaN();
+
+/// Heights by a function of the position, between two bounds.
+struct ground {
+    static constexpr in::seabed::type kind = in::seabed::type::sand;
+    std::function<float(double, double)> height;
+    double lowest = 0, highest = 0;
+
+    void row(const in::seabed::scanline& line, std::span<float> heights) const {
+        for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = height(line.x(i), line.y);
+    }
+    in::seabed::height_range range() const { return {lowest, highest}; }
+};
+
+in::scene over(const in::seabed::any& seabed) {
+    in::scene s;
+    s.seabed = seabed;
+    s.bottom.fill({1});
+    return s;
+}
+
+/// A bin holds reflectivity x sine^2 x area, for one metre of track.
+in::frame<in::labels> hear(const in::scene& s, const std::vector<in::ping>& track, float first_range, float range,
+                           int bins, double cell = 0) {
+    const in::side_scan rig{.ping_spacing = 1, .first_range = first_range, .range = range, .bins = bins};
+    in::record_options<> options;
+    options.cell = cell;
+    return in::record(s, track, rig, options.with(in::sonar_equation<>{}));
+}
+in::frame<in::labels> hear(const in::scene& s, const in::ping& p, float first_range, float range, int bins,
+                           double cell = 0) {
+    return hear(s, std::vector{p}, first_range, range, bins, cell);
+}
+
+double energy(const in::image<float>& picture, int row = 0) {
+    double sum = 0;
+    for (const float v : picture.row(row)) sum += static_cast<double>(v);
+    return sum;
+}
+double target_energy(const in::frame<in::labels>& heard) {
+    double sum = 0;
+    for (int b = 0; b < heard.image.width(); ++b)
+        if (heard.labels.instance(b, 0) != 0) sum += static_cast<double>(heard.image(b, 0));
+    return sum;
+}
+int dark_bins(const in::frame<in::labels>& heard, int row = 0) {
+    const auto shadows = heard.labels.shadow.row(row);
+    return static_cast<int>(std::count_if(shadows.begin(), shadows.end(), [](auto by) { return by != 0; }));
+}
+
+}  // namespace
+
+TEST_CASE("Level ground close below the sonar has no empty bins, beside ground that is sixteen times as deep") {
+    for (const double depth : {3.0, 2.0, 1.0, 0.35}) {
+        const double step = 5 - depth;
+        const auto heard =
+            hear(over(ground{[=](double x, double) { return x > 12 ? static_cast<float>(step) : 0.0f; }, 0, step}),
+                 {.position = {0, 0, 5}}, 0, 40, 800);
+        const double bin = 0.05;
+        for (int b = static_cast<int>(13 / bin); b < 795; ++b) {
+            // Lambert's law on ground at a depth d: sine^2 = (d / R)^2, over dx = R / x dR.
+            const double range = (b + 0.5) * bin, x = std::sqrt(range * range - depth * depth);
+            CAPTURE(depth, b);
+            REQUIRE(heard.image(b, 0) == Approx(depth * depth / (range * x) * bin).epsilon(0.03));
+        }
+    }
+}
+
+TEST_CASE("Nothing is received before the first return, in the bin that ends at the altitude") {
+    for (const double cell : {0.0, 0.02}) {
+        const auto heard =
+            hear(over(in::seabed::flat{.surface = {.rms = 0}}), {.position = {0, 0, 5}}, 0, 40, 400, cell);
+        for (int b = 0; b < 50; ++b) CHECK(heard.image(b, 0) == 0);
+        CHECK(heard.image(50, 0) > 0);
+        CHECK(heard.labels.seabed(50, 0) != in::labels::no_seabed);
+        // The integral of sine^2 over the ground within the first bin.
+        CHECK(heard.image(50, 0) == Approx(5 * std::acos(5 / 5.1)).epsilon(0.01));
+    }
+}
+
+TEST_CASE("A pitched fan whose foot lies half a metre within the data hears what it hears on endless ground") {
+    for (const double pitch : {0.2, -0.5})
+        for (const double edge : {-8.0, 2.0}) {
+            // Behind the edge, seen from the foot, the ground is missing; far away it rises, so that its bounds are
+            // wide.
+            const double side = pitch > 0 ? 1 : -1;
+            const in::ping p{.position = {0, edge + side * 0.5 - 10 * std::tan(pitch), 10}, .pitch = pitch};
+            const auto height = [=](double, double y) { return side * y > 500 ? 5.0f : 0.0f; };
+            const auto beside = [=](double x, double y) { return side * (y - edge) < 0 ? no_data : height(x, y); };
+            CAPTURE(pitch, edge);
+            CHECK(energy(hear(over(ground{beside, 0, 5}), p, 0, 30, 300).image) ==
+                  Approx(energy(hear(over(ground{height, 0, 5}), p, 0, 30, 300).image)).epsilon(1e-4));
+        }
+}
+
+TEST_CASE("A pitched fan across a steep rise along the track has no shadows, as the rise is level across it") {
+    for (const double width : {0.25, 0.1})  // of a step half a metre high
+        for (const double pitch : {0.35, 0.5}) {
+            const auto step = [=](double, double y) {
+                return static_cast<float>(0.5 * std::clamp(y / width, 0.0, 1.0));
+            };
+            std::vector<in::ping> track;
+            for (int i = 0; i < 12; ++i) {
+                const double way = (i + 0.5) / 12;  // up the step
+                track.push_back({.position = {0, width * way - (5 - 0.5 * way) * std::tan(pitch), 5}, .pitch = pitch});
+            }
+            const auto heard = hear(over(ground{step, 0, 0.5}), track, 0, 30, 300, 0.02);
+            for (int row = 0; row < 12; ++row) {
+                CAPTURE(width, pitch, row);
+                CHECK(dark_bins(heard, row) == 0);
+                CHECK(energy(heard.image, row) > 0);
+            }
+        }
+}
+
+TEST_CASE("A heightfield has data up to the vertices at the border of a gap, on all sides") {
+    in::seabed::heightfield field{.heights = in::image<float>(5, 5, 2.0f)};
+    field.heights(2, 2) = no_data;
+    for (const double along : {0.0, 0.3, 1.0})
+        for (const double border : {1.0, 3.0}) {
+            CHECK(field.height_at(border, 1 + 2 * along) == 2);
+            CHECK(field.height_at(1 + 2 * along, border) == 2);
+        }
+    CHECK(std::isnan(field.height_at(2, 2)));
+    CHECK(std::isnan(field.height_at(1.5, 2)));
+    CHECK(std::isnan(field.height_at(2, 2.5)));
+}
+
+TEST_CASE("A gap that ends at sampled positions is as wide on both sides of the track") {
+    const auto bed = [](double x, double) { return std::abs(x) > 8 && std::abs(x) < 10 ? no_data : 0.0f; };
+    const in::scene s = over(ground{bed, 0, 0});
+    in::side_scan rig{.ping_spacing = 1, .pings = 1, .range = 20, .bins = 160};
+    in::record_options<> options;
+    options.cell = 0.125;
+    const auto starboard = in::render(s, rig, options);
+    rig.side = in::side::port;
+    const auto port = in::render(s, rig, options);
+    for (int b = 0; b < 160; ++b) {
+        CAPTURE(b);
+        CHECK(port.image(b, 0) == starboard.image(b, 0));
+    }
+}
+
+TEST_CASE("A window that begins behind a step has the labels of the whole recording") {
+    for (double at = 8.6; at < 8.8; at += 0.01) {  // the window begins in the shadow of the step, or just beyond it
+        in::scene s = over(ground{[=](double x, double) { return x < at ? 0.0f : 0.5f; }, 0, 0.5});
+        s.add(in::cube{.size = {0.5f, 4, 1.5f}}, {.position = {15, 0, 1.25}}, "cube");
+        const in::ping p{.position = {0, 0, 5}};
+        const auto whole = hear(s, p, 0, 30, 300, 0.1), part = hear(s, p, 12, 30, 180, 0.1);
+        int differing = 0;
+        for (int b = 0; b < 180; ++b)
+            differing += whole.labels.shadow(b + 120, 0) != part.labels.shadow(b, 0) ||
+                         whole.labels.seabed(b + 120, 0) != part.labels.seabed(b, 0) ||
+                         whole.labels.instance(b + 120, 0) != part.labels.instance(b, 0);
+        CAPTURE(at);
+        CHECK(differing == 0);
+    }
+}
+
+TEST_CASE("A buried target below a gap in front of a window echoes in it as in the whole recording") {
+    in::scene s = over(ground{[](double x, double) { return x > 0.5 && x < 3 ? no_data : 0.0f; }, 0, 0});
+    s.add(in::cube{.size = {2, 4, 2}}, {.position = {16, 0, -40}}, "cube");
+    const in::ping p{.position = {0, 0, 5}};
+    const double whole = target_energy(hear(s, p, 0, 60, 600));
+    CHECK(whole > 1);
+    CHECK(target_energy(hear(s, p, 12, 60, 480)) == Approx(whole).epsilon(0.001));
+}
+
+TEST_CASE("A ping's row does not depend on the pings that are recorded with it") {
+    in::scene s =
+        over(ground{[](double x, double) { return x > 1 && x < 2 ? no_data : 0.05f * static_cast<float>(std::sin(x)); },
+                    -0.05, 0.05});
+    s.add(in::cube{.size = {2, 2, 2}}, {.position = {16, 50, -10}}, "cube");
+    const in::ping first{.position = {0, 0, 5}}, over_target{.position = {4, 50, 5}};
+    const auto alone = hear(s, first, 20, 30, 200), both = hear(s, {first, over_target}, 20, 30, 200);
+    for (int b = 0; b < 200; ++b) CHECK(both.image(b, 0) == alone.image(b, 0));
+}
+
+TEST_CASE("The range of the last column bounds positions across the track, not the heights of targets there") {
+    for (const double height : {10.0, 60.0}) {
+        in::scene s = over(in::seabed::flat{.surface = {.rms = 0}});
+        s.add(in::cube{.size = {1, 4, 1}}, {.position = {38, 0, height}}, "high");
+        const in::ground_range rig{.ping_spacing = 1, .pings = 1, .range = 40, .bins = 400};
+        const auto heard = in::render(s, rig, in::record_options<>{}.with(in::sonar_equation<>{}));
+        CAPTURE(height);
+        CHECK(target_energy(heard) == Approx(0.9).epsilon(0.03));  // the area of a side that the rays meet, about 1 m
+    }
+}
+
+TEST_CASE("A shadow is labelled with the target that covers most of a ray, however finely it is meshed") {
+    // Behind both plates the ground is dark; the higher part of each ray meets the plate of many strips.
+    const auto strips = [](int count) {
+        in::mesh m;
+        for (int i = 0; i < count; ++i) {
+            const auto low = static_cast<float>(0.6 * i / count), high = static_cast<float>(0.6 * (i + 1) / count);
+            const auto first = static_cast<std::uint32_t>(m.positions.size());
+            for (const glm::vec3 p : {glm::vec3(0, -1, low), {0, 1, low}, {0, 1, high}, {0, -1, high}})
+                m.positions.push_back(p);
+            m.triangles.push_back({first, first + 2, first + 1});
+            m.triangles.push_back({first, first + 3, first + 2});
+        }
+        return m;
+    };
+    const auto shadows = [&](int count, double border) {
+        in::scene s = over(in::seabed::flat{.surface = {.rms = 0}});
+        s.add(strips(count), {.position = {10, 0, border}}, "of strips");
+        s.add(strips(1), {.position = {10, 0, border - 0.6}}, "in one piece");
+        return hear(s, in::ping{.position = {0, 0, 5}}, 0, 20, 60, 0.4).labels.shadow;
+    };
+    for (double border = 0.3; border < 0.6; border += 0.02) {
+        CAPTURE(border);
+        CHECK(shadows(40, border) == shadows(1, border));
+    }
+}
+
+TEST_CASE("Cells so small that the seabed would not fit into memory are refused") {
+    const in::side_scan rig{.pings = 1, .range = 1000, .bins = 100};
+    in::record_options<> options;
+    options.cell = 1e-6;
+    CHECK_THROWS_WITH(in::render(over(in::seabed::flat{}), rig, options), ContainsSubstring("seabed tiles"));
+}
