@@ -9,7 +9,8 @@
 // `pass` returns a value, which is copied for each band of rows: it may keep state between pixels. It may process up to
 // run_length adjacent pixels at once by `row(from, to, count, x, y)`, to[i] = fn(from[i], x + i, y), where `to` may be
 // `from`. Passes that need the image's origin and size implement `prepare(area)`, called before the first pixel; it may
-// throw.
+// throw. Passes that compute rows above a band before its first one say how many by `rows_above()`: their bands are at
+// least twice as high, and are walked run by run downwards rather than row by row.
 #pragma once
 
 #include <insonify/core/image.hpp>
@@ -63,6 +64,15 @@ struct pixel_area {
 inline constexpr int run_length = 512;
 
 namespace detail::inline INSONIFY_FLAGS {
+
+/// The rows above a band that a pass computes, if any.
+template <class Pass>
+int rows_above(const Pass& pass) {
+    if constexpr (requires { pass.rows_above(); })
+        return pass.rows_above();
+    else
+        return 0;
+}
 
 template <class Fn, class Pixel>
 using pass_result = decltype(call_pixel(std::declval<Fn&>(), std::declval<const Pixel&>(), 0, 0));

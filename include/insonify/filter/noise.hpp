@@ -85,6 +85,7 @@ class scaled_law {
         apply_rule(rule_, from, draws_.row(buffer, 0, run), scale_.row(run), to, run.count);
     }
     void prepare(const pixel_area& area) { scale_.prepare(area); }
+    int rows_above() const { return detail::rows_above(draws_); }
 
   private:
     Rule rule_;

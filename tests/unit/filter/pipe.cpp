@@ -126,6 +126,58 @@ TEST_CASE("Results don't depend on the executor", "[threads]") {
     CHECK(apply(source, look) == serial);
 }
 
+/// Sums each pixel and the 40 above it, and counts the rows of a run that it reads for that.
+struct sum_downwards {
+    static constexpr int height = 40;
+    in::image_view<const float> source;
+    std::int64_t& read;
+
+    struct pass_of_sums {
+        const sum_downwards& filter;
+        int x = -1, y = -1;  // of the last run
+        float sum[in::run_length];
+
+        int rows_above() const { return height; }
+        void row(const float*, float* to, int count, int column, int row) {
+            if (column != x || row != y + 1) {
+                std::fill_n(sum, count, 0.0f);
+                for (int i = row - height; i < row; ++i) add(count, column, i, 1);
+            }
+            add(count, column, row, 1);
+            std::copy_n(sum, count, to);
+            if (row >= height) add(count, column, row - height, -1);
+            x = column, y = row;
+        }
+        float operator()(float, int column, int row) {
+            float one;
+            this->row(nullptr, &one, 1, column, row);
+            return one;
+        }
+        void add(int count, int column, int row, float factor) {
+            if (row < 0) return;
+            filter.read += factor > 0;
+            for (int i = 0; i < count; ++i) sum[i] += factor * filter.source(column + i, row);
+        }
+    };
+    auto pass() const { return pass_of_sums{*this}; }
+};
+
+TEST_CASE("A pass that computes rows above its band gets high bands, walked downwards run by run") {
+    in::image<float> picture(2000, 240);
+    for (int y = 0; y < 240; ++y)
+        for (int x = 0; x < 2000; ++x) picture(x, y) = static_cast<float>((x + y) % 7);
+    std::int64_t read = 0;
+    const auto sums = picture | sum_downwards{picture, read};
+    for (int y = 0; y < 240; ++y)
+        for (int x = 0; x < 2000; x += 37) {
+            float sum = 0;
+            for (int i = (std::max)(0, y - 40); i <= y; ++i) sum += picture(x, i);
+            REQUIRE(sums(x, y) == sum);
+        }
+    // Four runs of three bands, which are twice as high as the rows above them.
+    CHECK(read == 4 * (240 + 2 * 40));
+}
+
 TEST_CASE("An origin whose columns and rows an int cannot number is refused") {
     const in::image<float> grey(600, 4, 0.5f);
     for (const in::pixel_origin& origin : {in::pixel_origin{INT_MAX - 10, 0}, in::pixel_origin{0, INT_MIN}})

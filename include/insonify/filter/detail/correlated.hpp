@@ -29,6 +29,9 @@ class correlated_draws {
     correlated_draws(noise_key noise, dynamic_array<float> x, dynamic_array<float> y)
         : noise_(noise), taps_x_(std::move(x)), taps_y_(std::move(y)) {}
 
+    /// As of a pass.
+    int rows_above() const { return 2 * (static_cast<int>(taps_y_.size()) - 1); }
+
     /// The draws of a run, in `into`.
     void row(float* into, std::uint32_t field, const noise_run& run) {
         strip& s = strip_of(field, run);
@@ -45,7 +48,7 @@ class correlated_draws {
     }
 
   private:
-    /// The last rows of one column of runs.
+    /// The last rows of a column of runs.
     struct strip {
         std::uint32_t field, channel;
         int x, count;
@@ -60,12 +63,14 @@ class correlated_draws {
         }
     };
 
-    /// Runs come in the same order in each row, so the next is usually the one behind the last.
+    /// Fields come in the same order in each run, so the next is usually the one behind the last.
     strip& strip_of(std::uint32_t field, const noise_run& run) {
         for (std::size_t i = 0; i < strips_.size(); ++i) {
             last_ = last_ + 1 < strips_.size() ? last_ + 1 : 0;
             strip& s = strips_[last_];
-            if (s.x == run.x && s.count == run.count && s.field == field && s.channel == run.channel) return s;
+            if (s.field != field || s.channel != run.channel) continue;
+            if (s.x != run.x || s.count != run.count) s.x = run.x, s.count = run.count, s.filled = false;
+            return s;
         }
         last_ = strips_.size();
         strips_.push_back({field, run.channel, run.x, run.count, 0, false,
@@ -110,6 +115,8 @@ class field_draws {
         correlated_.emplace(noise_, std::move(x), std::move(y));
     }
     bool is_correlated() const { return correlated_.has_value(); }
+    /// As of a pass.
+    int rows_above() const { return correlated_ ? correlated_->rows_above() : 0; }
 
     /// The draws of a run; they lie in `buffer`.
     const float* row(draw_buffer& buffer, std::uint32_t field, const noise_run& run) {

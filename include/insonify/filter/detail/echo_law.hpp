@@ -92,6 +92,7 @@ class echo_law {
             apply_rule(echo_factor<echo::intensity>{}, from, intensity, scale_, to, run.count);
         }
     }
+    int rows_above() const { return fields_.rows_above(); }
     void prepare(const pixel_area& area) {
         for (parameter* p : {&statistics_.looks, &statistics_.texture, &statistics_.steady})
             p->prepare(statistics_.name, area);

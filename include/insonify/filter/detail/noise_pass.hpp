@@ -109,6 +109,7 @@ class noise_pass {
     }
 
     void prepare(const pixel_area& area) { law_.prepare(area); }
+    int rows_above() const { return detail::rows_above(law_); }
 
   private:
     template <noise_channel Channel>

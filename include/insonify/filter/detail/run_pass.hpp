@@ -38,18 +38,21 @@ void run_pass(image_view<const From> from, image_view<To> to, const Pass& pass, 
     require_range("origin.y", origin.y, -farthest, farthest, "within 2^30");
     Pass prepared = pass;
     prepare_pass(prepared, {origin.x, origin.y, from.width(), from.height()});
-    const int rows = 65536 / (std::max)(from.width(), 1) + 1;
+    // A pass that computes rows above has long bands, and keeps those rows for one column of runs at a time.
+    const int width = from.width(), above = rows_above(prepared);
+    const int rows = (std::max)(65536 / (std::max)(width, 1) + 1, 2 * above), step = above > 0 ? run_length : width;
     bulk_ranges(ex, static_cast<std::size_t>(from.height()), static_cast<std::size_t>(rows),
                 [&](std::size_t first, std::size_t last) {
                     Pass own = prepared;
-                    for (int y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
-                        const From* const source = from.row(y).data();
-                        To* const target = to.row(y).data();
-                        for (int x = 0; x < from.width(); x += run_length) {
-                            const int count = (std::min)(run_length, from.width() - x);
-                            call_row(own, source + x, target + x, count, origin.x + x, origin.y + y);
+                    for (int left = 0; left < width; left += step)
+                        for (int y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
+                            const From* const source = from.row(y).data();
+                            To* const target = to.row(y).data();
+                            for (int x = left; x < (std::min)(left + step, width); x += run_length) {
+                                const int count = (std::min)(run_length, width - x);
+                                call_row(own, source + x, target + x, count, origin.x + x, origin.y + y);
+                            }
                         }
-                    }
                 });
 }
 

@@ -57,6 +57,7 @@ struct fused {
             call_row(second, buffer, to, count, x, y);
         }
     }
+    int rows_above() const { return (std::max)(detail::rows_above(first), detail::rows_above(second)); }
     void prepare(const pixel_area& area) {
         prepare_pass(first, area);
         prepare_pass(second, area);
