@@ -14699,7 +14699,7 @@ struct grid_heights {
           u(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(pitch), insonify::detail::memory_of(ex)),
           least(bounds.lower.z),
           greatest(bounds.upper.z) {
-        // In square blocks, so that both reads and writes are contiguous.
+        // In squares of vertices, so that both reads and writes are contiguous.
         constexpr int square = 64;
         const auto drop = static_cast<float>(grid.drop);
         bulk_ranges(ex, static_cast<std::size_t>(grid.columns), square, [&](std::size_t from, std::size_t to) {
@@ -15182,16 +15182,16 @@ class horizon_triangles {
     }
 
   private:
-    /// Cells of a block, whose results stay in the cache. Along a column, what is read is contiguous; from one to the
-    /// next it is in another page, which no hardware prefetches.
+    /// Size in cells of the parts whose results stay in the cache. Along a column, what is read is contiguous; from one
+    /// to the next it is in another page, which no hardware prefetches.
     static constexpr int wide = 32, tall = 256;
 
-    /// Results for the cells of a block.
+    /// Results for the cells of a part.
     struct answers {
         std::int32_t of[wide][tall];  ///< by column, then row: of the first triangle, and of the second << 8
     };
 
-    /// The results of a block in the order of the mesh.
+    /// The results of a part in the order of the mesh.
     void write(const answers& found, int left, int bottom, int right, int top, decision* into) const {
         for (int y = bottom; y < top; ++y)
             for (int x = left; x < right; ++x) {
@@ -15313,8 +15313,8 @@ INSONIFY_ARITHMETIC_END
 //
 // In grid steps a ray is a straight line across cells. The surface's u (horizon_bounds.hpp) is piecewise linear along
 // it, with vertices at the edges that the line crosses, and the ray is blocked if u exceeds the point's u. The walk
-// skips blocks of cells whose largest u is below it, and ends where the bounds of the horizon decide. Where u is within
-// its error of the point's, the triangles of that column are tested in doubles.
+// skips macrocells (4 x 4 cells) whose largest u is below it, and ends where the bounds of the horizon decide.
+// Where u is within its error of the point's, the triangles of that column are tested in doubles.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -15324,13 +15324,13 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 
 using insonify::detail::dynamic_array;
 
-/// The largest u of square blocks of cells.
-class block_heights {
+/// The largest u of macrocells: `side` x `side` cells each.
+class macrocell_heights {
   public:
     static constexpr int side = 4;  ///< cells
 
     template <executor E>
-    block_heights(const lit_grid& grid, const grid_heights& heights, isa level, E& ex)
+    macrocell_heights(const lit_grid& grid, const grid_heights& heights, isa level, E& ex)
         : columns_((grid.columns - 2) / side + 1), rows_((grid.rows - 2) / side + 1) {
         highest_ = insonify::detail::uninitialized_array<float>(
             static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), insonify::detail::memory_of(ex));
@@ -15343,24 +15343,24 @@ class block_heights {
         });
     }
 
-    /// The largest u of the vertices of the cells in a column of blocks, between two rows of cells.
+    /// The largest u of the vertices of the cells in a column of macrocells, between two rows of cells.
     float highest(int column, int first_row, int last_row) const {
-        const float* const blocks = highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_;
+        const float* const macrocells = highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_;
         const int first = (std::max)(first_row / side, 0), last = (std::min)(last_row / side, rows_ - 1);
         float highest = grid_heights::nothing;
-        for (int block = first; block <= last; ++block) highest = (std::max)(highest, blocks[block]);
+        for (int i = first; i <= last; ++i) highest = (std::max)(highest, macrocells[i]);
         return highest;
     }
 
   private:
-    /// One column of blocks.
+    /// One column of macrocells.
     struct kernel {
         const lit_grid& grid;
         const grid_heights& heights;
         int first;   ///< column of vertices
         float* row;  ///< room for the largest u of each row
         float* into;
-        int blocks;
+        int macrocells;
 
         template <int N>
         INSONIFY_INLINE void run() const {
@@ -15368,11 +15368,11 @@ class block_heights {
             int y = 0;
             for (; y + N <= grid.rows; y += N) highest_of<N>(y, last);
             for (; y < grid.rows; ++y) highest_of<1>(y, last);
-            for (int block = 0; block < blocks; ++block) {
-                const int low = block * side, high = (std::min)(low + side, grid.rows - 1);
+            for (int macrocell = 0; macrocell < macrocells; ++macrocell) {
+                const int low = macrocell * side, high = (std::min)(low + side, grid.rows - 1);
                 float highest = row[low];
                 for (int i = low + 1; i <= high; ++i) highest = (std::max)(highest, row[i]);
-                into[block] = highest;
+                into[macrocell] = highest;
             }
         }
         template <int N>
@@ -15396,9 +15396,9 @@ class block_heights {
 class horizon_walk {
   public:
     /// @param p  origin of the ray, in the mesh's frame
-    horizon_walk(const horizon_bounds& horizon, const block_heights& blocks, const glm::dvec3& p)
+    horizon_walk(const horizon_bounds& horizon, const macrocell_heights& macrocells, const glm::dvec3& p)
         : horizon_(horizon),
-          blocks_(blocks),
+          macrocells_(macrocells),
           grid_(horizon.grid()),
           x_(grid_.steps(glm::dvec2(p)).x),
           w_(grid_.steps(glm::dvec2(p)).y - grid_.slope * x_),
@@ -15466,10 +15466,11 @@ class horizon_walk {
                 const decision rest = decide_before(column);
                 if (rest != decision::undecided) return rest == decision::dark;
             }
-            if (!is_first && column % block_heights::side == block_heights::side - 1) {
-                const int before = column - (block_heights::side - 1);
-                const float highest_before = blocks_.highest(
-                    before / block_heights::side, clamped_row(row_at(before) - beside_), clamped_row(high + beside_));
+            if (!is_first && column % macrocell_heights::side == macrocell_heights::side - 1) {
+                const int before = column - (macrocell_heights::side - 1);
+                const float highest_before =
+                    macrocells_.highest(before / macrocell_heights::side, clamped_row(row_at(before) - beside_),
+                                        clamped_row(high + beside_));
                 if (static_cast<double>(highest_before) < u_lower_bound) {
                     column = before;
                     continue;
@@ -15546,7 +15547,7 @@ class horizon_walk {
     }
 
     const horizon_bounds& horizon_;
-    const block_heights& blocks_;
+    const macrocell_heights& macrocells_;
     const lit_grid& grid_;
     double x_, w_, u_;
     double beside_;
@@ -15576,7 +15577,7 @@ class grid_caster {
           to_mesh_(inverse(c.placement)),
           travel_(transform_direction(to_mesh_, -frame.to_light())),
           bounds_(mesh_, c.box, *c.grid, travel_, level, ex),
-          blocks_(bounds_.grid(), bounds_.heights(), level, ex) {}
+          macrocells_(bounds_.grid(), bounds_.heights(), level, ex) {}
 
     /// Decides points [first, last), which lie on this caster and face the light, where the horizon's bounds suffice.
     /// @param into  results, from that of point `first` on
@@ -15591,12 +15592,12 @@ class grid_caster {
         const glm::dvec3 at = transform_point(to_mesh_, p);
         const decision answer = bounds_.at(at);
         if (answer != decision::undecided) return answer == decision::dark;
-        return horizon_walk(bounds_, blocks_, at).is_blocked_from_surface(decide);
+        return horizon_walk(bounds_, macrocells_, at).is_blocked_from_surface(decide);
     }
     /// The same for any point.
     template <class Decide>
     bool blocks(const glm::dvec3& p, const Decide& decide) const {
-        return horizon_walk(bounds_, blocks_, transform_point(to_mesh_, p)).is_blocked_from_anywhere(decide);
+        return horizon_walk(bounds_, macrocells_, transform_point(to_mesh_, p)).is_blocked_from_anywhere(decide);
     }
 
     /// See horizon_triangles.
@@ -15639,7 +15640,7 @@ class grid_caster {
     affine to_mesh_;
     glm::dvec3 travel_;  ///< of the light, in the mesh's frame
     horizon_bounds bounds_;
-    block_heights blocks_;
+    macrocell_heights macrocells_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS

@@ -116,16 +116,16 @@ class horizon_triangles {
     }
 
   private:
-    /// Cells of a block, whose results stay in the cache. Along a column, what is read is contiguous; from one to the
-    /// next it is in another page, which no hardware prefetches.
+    /// Size in cells of the parts whose results stay in the cache. Along a column, what is read is contiguous; from one
+    /// to the next it is in another page, which no hardware prefetches.
     static constexpr int wide = 32, tall = 256;
 
-    /// Results for the cells of a block.
+    /// Results for the cells of a part.
     struct answers {
         std::int32_t of[wide][tall];  ///< by column, then row: of the first triangle, and of the second << 8
     };
 
-    /// The results of a block in the order of the mesh.
+    /// The results of a part in the order of the mesh.
     void write(const answers& found, int left, int bottom, int right, int top, decision* into) const {
         for (int y = bottom; y < top; ++y)
             for (int x = left; x < right; ++x) {

@@ -2,8 +2,8 @@
 //
 // In grid steps a ray is a straight line across cells. The surface's u (horizon_bounds.hpp) is piecewise linear along
 // it, with vertices at the edges that the line crosses, and the ray is blocked if u exceeds the point's u. The walk
-// skips blocks of cells whose largest u is below it, and ends where the bounds of the horizon decide. Where u is within
-// its error of the point's, the triangles of that column are tested in doubles.
+// skips macrocells (4 x 4 cells) whose largest u is below it, and ends where the bounds of the horizon decide.
+// Where u is within its error of the point's, the triangles of that column are tested in doubles.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
@@ -17,13 +17,13 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 
 using insonify::detail::dynamic_array;
 
-/// The largest u of square blocks of cells.
-class block_heights {
+/// The largest u of macrocells: `side` x `side` cells each.
+class macrocell_heights {
   public:
     static constexpr int side = 4;  ///< cells
 
     template <executor E>
-    block_heights(const lit_grid& grid, const grid_heights& heights, isa level, E& ex)
+    macrocell_heights(const lit_grid& grid, const grid_heights& heights, isa level, E& ex)
         : columns_((grid.columns - 2) / side + 1), rows_((grid.rows - 2) / side + 1) {
         highest_ = insonify::detail::uninitialized_array<float>(
             static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), insonify::detail::memory_of(ex));
@@ -36,24 +36,24 @@ class block_heights {
         });
     }
 
-    /// The largest u of the vertices of the cells in a column of blocks, between two rows of cells.
+    /// The largest u of the vertices of the cells in a column of macrocells, between two rows of cells.
     float highest(int column, int first_row, int last_row) const {
-        const float* const blocks = highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_;
+        const float* const macrocells = highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_;
         const int first = (std::max)(first_row / side, 0), last = (std::min)(last_row / side, rows_ - 1);
         float highest = grid_heights::nothing;
-        for (int block = first; block <= last; ++block) highest = (std::max)(highest, blocks[block]);
+        for (int i = first; i <= last; ++i) highest = (std::max)(highest, macrocells[i]);
         return highest;
     }
 
   private:
-    /// One column of blocks.
+    /// One column of macrocells.
     struct kernel {
         const lit_grid& grid;
         const grid_heights& heights;
         int first;   ///< column of vertices
         float* row;  ///< room for the largest u of each row
         float* into;
-        int blocks;
+        int macrocells;
 
         template <int N>
         INSONIFY_INLINE void run() const {
@@ -61,11 +61,11 @@ class block_heights {
             int y = 0;
             for (; y + N <= grid.rows; y += N) highest_of<N>(y, last);
             for (; y < grid.rows; ++y) highest_of<1>(y, last);
-            for (int block = 0; block < blocks; ++block) {
-                const int low = block * side, high = (std::min)(low + side, grid.rows - 1);
+            for (int macrocell = 0; macrocell < macrocells; ++macrocell) {
+                const int low = macrocell * side, high = (std::min)(low + side, grid.rows - 1);
                 float highest = row[low];
                 for (int i = low + 1; i <= high; ++i) highest = (std::max)(highest, row[i]);
-                into[block] = highest;
+                into[macrocell] = highest;
             }
         }
         template <int N>
@@ -89,9 +89,9 @@ class block_heights {
 class horizon_walk {
   public:
     /// @param p  origin of the ray, in the mesh's frame
-    horizon_walk(const horizon_bounds& horizon, const block_heights& blocks, const glm::dvec3& p)
+    horizon_walk(const horizon_bounds& horizon, const macrocell_heights& macrocells, const glm::dvec3& p)
         : horizon_(horizon),
-          blocks_(blocks),
+          macrocells_(macrocells),
           grid_(horizon.grid()),
           x_(grid_.steps(glm::dvec2(p)).x),
           w_(grid_.steps(glm::dvec2(p)).y - grid_.slope * x_),
@@ -159,10 +159,11 @@ class horizon_walk {
                 const decision rest = decide_before(column);
                 if (rest != decision::undecided) return rest == decision::dark;
             }
-            if (!is_first && column % block_heights::side == block_heights::side - 1) {
-                const int before = column - (block_heights::side - 1);
-                const float highest_before = blocks_.highest(
-                    before / block_heights::side, clamped_row(row_at(before) - beside_), clamped_row(high + beside_));
+            if (!is_first && column % macrocell_heights::side == macrocell_heights::side - 1) {
+                const int before = column - (macrocell_heights::side - 1);
+                const float highest_before =
+                    macrocells_.highest(before / macrocell_heights::side, clamped_row(row_at(before) - beside_),
+                                        clamped_row(high + beside_));
                 if (static_cast<double>(highest_before) < u_lower_bound) {
                     column = before;
                     continue;
@@ -239,7 +240,7 @@ class horizon_walk {
     }
 
     const horizon_bounds& horizon_;
-    const block_heights& blocks_;
+    const macrocell_heights& macrocells_;
     const lit_grid& grid_;
     double x_, w_, u_;
     double beside_;
