@@ -10313,21 +10313,21 @@ class light_frame {
 };
 
 /// Direction to a point of a disc of light, in units of the distance to its centre.
-/// @param to_light  unit vector to the centre
-/// @param travel    unit vector on the ground along which shadows grow
-/// @param beside    offset from the centre, across and up, in the same unit
-inline glm::dvec3 toward_disc(const glm::dvec3& to_light, const glm::dvec2& travel, const glm::dvec2& beside) {
+/// @param to_light     unit vector to the centre
+/// @param travel       unit vector on the ground along which shadows grow
+/// @param disc_offset  from the centre, across and up, in the same unit
+inline glm::dvec3 toward_disc(const glm::dvec3& to_light, const glm::dvec2& travel, const glm::dvec2& disc_offset) {
     const glm::dvec3 across(-travel.y, travel.x, 0), up = numeric::cross(to_light, across);
-    return to_light + beside.x * across + beside.y * up;
+    return to_light + disc_offset.x * across + disc_offset.y * up;
 }
 
 /// A point of a disc of light that faces the origin.
-/// @param beside  offset from the centre, across and up, over the centre's distance from the origin
-inline glm::dvec3 point_of_disc(const glm::dvec3& centre, const glm::dvec2& beside) {
+/// @param disc_offset  from the centre, across and up, over the centre's distance from the origin
+inline glm::dvec3 point_of_disc(const glm::dvec3& centre, const glm::dvec2& disc_offset) {
     const double distance = numeric::square_root(numeric::dot(centre, centre));
     const double level = numeric::square_root(centre.x * centre.x + centre.y * centre.y);
     const glm::dvec2 travel = level > 0 ? glm::dvec2(-centre.x / level, -centre.y / level) : glm::dvec2(1, 0);
-    return distance > 0 ? distance * toward_disc(centre / distance, travel, beside) : centre;
+    return distance > 0 ? distance * toward_disc(centre / distance, travel, disc_offset) : centre;
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -14893,7 +14893,7 @@ class horizon_bounds {
                    isa level, E& ex)
         : grid_(lattice, travel),
           heights_(m, box, grid_, ex),
-          beside_(2 * lattice.off + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
+          lattice_error_(2 * lattice.off + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
         const double greatest = heights_.greatest, least = heights_.least;
         const double relief = grid_.drop * (greatest - least);
         const double size = grid_.columns + grid_.drop * (std::max)(numeric::abs(greatest), numeric::abs(least));
@@ -14924,11 +14924,11 @@ class horizon_bounds {
         const reals x = grid_.x_of.x * dx + grid_.x_of.y * dy;
         const reals strip = grid_.y_of.x * dx + grid_.y_of.y * dy - grid_.slope * x - static_cast<double>(first_strip_);
         const bits exists = bits(x >= 0.0) & bits(x <= static_cast<double>(grid_.columns - 1)) &
-                            bits(strip >= beside_) & bits(strip < strips_ - beside_);
+                            bits(strip >= lattice_error_) & bits(strip < strips_ - lattice_error_);
         const reals u = x + grid_.drop * p[2];
         // A point close to a line of the lattice may lie in a cell beyond it.
-        const reals column = exists ? x : reals{}, ahead = exists ? x + beside_ : reals{};
-        const reals low = exists ? strip - beside_ : reals{}, high = exists ? strip + beside_ : reals{};
+        const reals column = exists ? x : reals{}, ahead = exists ? x + lattice_error_ : reals{};
+        const reals low = exists ? strip - lattice_error_ : reals{}, high = exists ? strip + lattice_error_ : reals{};
         const auto bound_at = [&](const reals& at, int k) {
             return bound(static_cast<int>(lane(at, k)), static_cast<int>(lane(low, k)),
                          static_cast<int>(lane(high, k)));
@@ -14952,8 +14952,8 @@ class horizon_bounds {
     const grid_heights& heights() const { return heights_; }
     /// Error bound of u, in columns.
     double margin() const { return margin_; }
-    /// Bound of a vertex's distance from its lattice point, along the light or across, in steps, with a margin.
-    double beside() const { return beside_; }
+    /// Bound of the distance of vertices from their lattice points, along the light or across, in steps, with a margin.
+    double lattice_error() const { return lattice_error_; }
     bool has_strip(int strip) const { return strip >= 0 && strip < strips_; }
     /// Strip number `strip` of a column holds the points with floor(Y - slope X) = strip + first_strip().
     int first_strip() const { return first_strip_; }
@@ -14971,7 +14971,7 @@ class horizon_bounds {
   private:
     lit_grid grid_;
     grid_heights heights_;
-    double beside_, margin_ = 0;
+    double lattice_error_, margin_ = 0;
     int first_strip_ = 0, strips_ = 0;
     insonify::detail::uninitialized_array<float> bounds_;
 };
@@ -15162,20 +15162,20 @@ class horizon_triangles {
                 decision* into) const {
         // These columns and, in each, these rows hold all points of such rays within the relief.
         const double least = horizon_.heights().least, greatest = horizon_.heights().greatest;
-        const double beside = 0x1p-8 + horizon_.margin();  // covers rounding
+        const double tolerance = 0x1p-8 + horizon_.margin();  // covers rounding
         const auto clamped = [](double at, int first, int last) {
             return static_cast<int>((std::min)((std::max)(at, static_cast<double>(first)), static_cast<double>(last)));
         };
-        const int left = clamped(lower.x - grid_.drop * greatest - beside - 1, first_column, last_column),
-                  right = clamped(upper.x - grid_.drop * least + beside + 1, first_column, last_column);
+        const int left = clamped(lower.x - grid_.drop * greatest - tolerance - 1, first_column, last_column),
+                  right = clamped(upper.x - grid_.drop * least + tolerance + 1, first_column, last_column);
         for (int x = left; x < right; ++x) {
-            const int bottom = clamped(lower.y - grid_.slope * (upper.x - x) - beside - 2, 0, grid_.rows - 1),
-                      top = clamped(upper.y - grid_.slope * (lower.x - x - 1) + beside + 2, 0, grid_.rows - 1);
+            const int bottom = clamped(lower.y - grid_.slope * (upper.x - x) - tolerance - 2, 0, grid_.rows - 1),
+                      top = clamped(upper.y - grid_.slope * (lower.x - x - 1) + tolerance + 2, 0, grid_.rows - 1);
             const float *const here = horizon_.heights().column(x), *const ahead = horizon_.heights().column(x + 1);
             for (int y = bottom; y < top; ++y) {
                 const auto low = static_cast<double>((std::min)({here[y], here[y + 1], ahead[y], ahead[y + 1]})),
                            high = static_cast<double>((std::max)({here[y], here[y + 1], ahead[y], ahead[y + 1]}));
-                if (high < lower.x - beside || low > upper.x + beside) continue;
+                if (high < lower.x - tolerance || low > upper.x + tolerance) continue;
                 into[grid_.first_triangle(x, y)] = into[grid_.first_triangle(x, y) + 1] = decision::undecided;
             }
         }
@@ -15230,11 +15230,11 @@ class horizon_triangles {
             load(b, horizon.heights().column(x + 1) + y);
             load(d, horizon.heights().column(x + 1) + y + 1);
             // The strips that the cells lie in.
-            constexpr double beside = 0x1p-8;
+            constexpr double tolerance = 0x1p-8;
             const double from = y - horizon.first_strip() - grid.slope * x;
             floats dark_below = floats{} + std::numeric_limits<float>::infinity(), lit_above = 0.0f - dark_below;
-            const int last = static_cast<int>(from + 1 + beside);
-            for (int strip = static_cast<int>(from - grid.slope - beside); strip <= last; ++strip) {
+            const int last = static_cast<int>(from + 1 + tolerance);
+            for (int strip = static_cast<int>(from - grid.slope - tolerance); strip <= last; ++strip) {
                 floats least, most;
                 load(least, horizon.dark_below(x) + strip);
                 load(most, horizon.lit_above(x) + strip);
@@ -15403,7 +15403,7 @@ class horizon_walk {
           x_(grid_.steps(glm::dvec2(p)).x),
           w_(grid_.steps(glm::dvec2(p)).y - grid_.slope * x_),
           u_(x_ + grid_.drop * p.z),
-          beside_(horizon.beside()) {}
+          lattice_error_(horizon.lattice_error()) {}
 
     /// Whether the surface blocks the ray of a point on it, where it faces the light.
     /// @param decide  decide(triangle): test of a triangle in doubles; false for the triangle of the point
@@ -15434,10 +15434,11 @@ class horizon_walk {
     /// Whether the point is above the surface by more than the error of u.
     bool lies_above() const {
         const double y = row_at(x_);
-        if (!(x_ >= beside_ && x_ <= grid_.columns - 1 - beside_ && y >= beside_ && y <= grid_.rows - 1 - beside_))
+        if (!(x_ >= lattice_error_ && x_ <= grid_.columns - 1 - lattice_error_ && y >= lattice_error_ &&
+              y <= grid_.rows - 1 - lattice_error_))
             return false;
-        for (const double x : {x_ - beside_, x_ + beside_})
-            for (int row = clamped_row(y - beside_); row <= clamped_row(y + beside_); ++row)
+        for (const double x : {x_ - lattice_error_, x_ + lattice_error_})
+            for (int row = clamped_row(y - lattice_error_); row <= clamped_row(y + lattice_error_); ++row)
                 if (!(highest((std::min)(static_cast<int>(x), grid_.columns - 2), row, row) < u_ - horizon_.margin()))
                     return false;
         return true;
@@ -15456,12 +15457,12 @@ class horizon_walk {
     bool walk(bool is_above, const Decide& decide) const {
         const double u_lower_bound = u_ - horizon_.margin();
         const auto greatest = static_cast<double>(horizon_.heights().greatest);
-        if (!(x_ + beside_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
-        int column = static_cast<int>((std::min)(x_ + beside_, static_cast<double>(grid_.columns - 2)));
+        if (!(x_ + lattice_error_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
+        int column = static_cast<int>((std::min)(x_ + lattice_error_, static_cast<double>(grid_.columns - 2)));
         for (bool is_first = true; column >= 0; --column, is_first = false) {
             // Rows of cells that the ray crosses in this column.
             const double low = row_at(column), high = low + grid_.slope;
-            if (high < -beside_ || column + 1 + grid_.drop * greatest < u_lower_bound) return false;
+            if (high < -lattice_error_ || column + 1 + grid_.drop * greatest < u_lower_bound) return false;
             if (!is_first && is_above) {
                 const decision rest = decide_before(column);
                 if (rest != decision::undecided) return rest == decision::dark;
@@ -15469,24 +15470,24 @@ class horizon_walk {
             if (!is_first && column % macrocell_heights::side == macrocell_heights::side - 1) {
                 const int before = column - (macrocell_heights::side - 1);
                 const float highest_before =
-                    macrocells_.highest(before / macrocell_heights::side, clamped_row(row_at(before) - beside_),
-                                        clamped_row(high + beside_));
+                    macrocells_.highest(before / macrocell_heights::side, clamped_row(row_at(before) - lattice_error_),
+                                        clamped_row(high + lattice_error_));
                 if (static_cast<double>(highest_before) < u_lower_bound) {
                     column = before;
                     continue;
                 }
             }
-            if (low > grid_.rows - 1 + beside_) continue;
-            const int first_row = clamped_row(low - beside_), last_row = clamped_row(high + beside_);
+            if (low > grid_.rows - 1 + lattice_error_) continue;
+            const int first_row = clamped_row(low - lattice_error_), last_row = clamped_row(high + lattice_error_);
             if (highest(column, first_row, last_row) < u_lower_bound) continue;
             const double limit = is_above ? x_ - column : 2;
-            if (low >= beside_ && high <= grid_.rows - 1 - beside_) {
+            if (low >= lattice_error_ && high <= grid_.rows - 1 - lattice_error_) {
                 const crossing crossed = cross(column, limit);
                 if (crossed.highest < u_lower_bound) continue;
                 if (is_above && crossed.certain > u_ + horizon_.margin()) return true;
                 if (!is_above && crossed.lowest > u_ + horizon_.margin()) continue;
             } else {
-                // Close to the border, whose vertices may lie beside the lattice, the ray may leave the grid and enter
+                // Close to the border, whose vertices may lie off the lattice, the ray may leave the grid and enter
                 // it again below the surface.
                 is_above = false;
             }
@@ -15500,8 +15501,8 @@ class horizon_walk {
 
     /// Decides by the bounds of a column, once the ray has been followed down to it.
     decision decide_before(int column) const {
-        const int strip = static_cast<int>(w_ - beside_ - horizon_.first_strip()),
-                  next = static_cast<int>(w_ + beside_ - horizon_.first_strip());
+        const int strip = static_cast<int>(w_ - lattice_error_ - horizon_.first_strip()),
+                  next = static_cast<int>(w_ + lattice_error_ - horizon_.first_strip());
         if (!horizon_.has_strip(strip) || !horizon_.has_strip(next)) return decision::undecided;
         const horizon_bound b = horizon_.bound(column, strip, next);
         if (u_ < static_cast<double>(b.dark_below) - horizon_.margin()) return decision::dark;
@@ -15521,11 +15522,11 @@ class horizon_walk {
         crossing found;
         // An edge is crossed a share s of the column from its beginning, a share t along it.
         const auto add = [&](double s, double first, double last, double t) {
-            if (s > limit + beside_) return;
+            if (s > limit + lattice_error_) return;
             const double u = first + t * (last - first);
             found.lowest = (std::min)(found.lowest, u);
             found.highest = (std::max)(found.highest, u);
-            if (s <= limit - beside_) found.certain = (std::max)(found.certain, u);
+            if (s <= limit - lattice_error_) found.certain = (std::max)(found.certain, u);
         };
         const double start = low - row, end = start + slope, up = (1 - start) / slope;
         const bool stays = end <= 1;
@@ -15550,7 +15551,7 @@ class horizon_walk {
     const macrocell_heights& macrocells_;
     const lit_grid& grid_;
     double x_, w_, u_;
-    double beside_;
+    double lattice_error_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
@@ -15680,8 +15681,8 @@ struct alignas(16) plane_vertex {
     float u, v, height;
     float state;  ///< 0, or one of the following
 
-    static constexpr float behind = 1;  ///< on the other side of a near light
-    static constexpr float beside = 2;  ///< too near to the plane of the light to have a direction
+    static constexpr float behind = 1;    ///< on the other side of a near light
+    static constexpr float too_near = 2;  ///< at a depth from 0 to min_depth: it has no direction
     static constexpr float not_finite = 3;
 };
 
@@ -15714,7 +15715,7 @@ struct plane_vertices_kernel {
             return;
         }
         if (plane.is_near() && !(p.z >= min_depth)) {
-            vertices[i] = {0, 0, 0, p.z < 0 ? plane_vertex::behind : plane_vertex::beside};
+            vertices[i] = {0, 0, 0, p.z < 0 ? plane_vertex::behind : plane_vertex::too_near};
             return;
         }
         const glm::dvec3 seen = plane.is_near() ? light_plane::seen(p) : p;
@@ -16786,10 +16787,10 @@ inline ground_rect casting_ground(const ground_rect& points, const seabed::heigh
     const double relief = range.highest - range.lowest;
     if (!(relief > 0)) return all;
     const auto* const from_nearby = std::get_if<shadow::point_light>(&light);
-    const auto light_at = [&](const glm::dvec2& beside) {  // a position if it is near, else a direction
-        if (from_nearby != nullptr) return shadow::point_of_disc(from_nearby->position, beside);
+    const auto light_at = [&](const glm::dvec2& disc_offset) {  // a position if it is near, else a direction
+        if (from_nearby != nullptr) return shadow::point_of_disc(from_nearby->position, disc_offset);
         const shadow::light_frame frame(std::get<shadow::directional_light>(light));
-        return shadow::toward_disc(frame.to_light(), frame.travel(), beside);
+        return shadow::toward_disc(frame.to_light(), frame.travel(), disc_offset);
     };
     const auto clamped = [&](double way) { return (std::max)(-longest, (std::min)(longest, way)); };
     for (const double across : {-radius, radius})
@@ -19077,8 +19078,8 @@ struct settings {
         const glm::dvec3 light = view.light_position();
         const double above = (std::max)(light.z - centre.z - radius, 0.05 * light.z);
         const double x = centre.x - light.x, y = centre.y - light.y;
-        const double beside = numeric::square_root(x * x + y * y) + radius;
-        const double sine = above / numeric::square_root(beside * beside + above * above);
+        const double level = numeric::square_root(x * x + y * y) + radius;
+        const double sine = above / numeric::square_root(level * level + above * above);
         return sine * above / light.z;
     }
 
@@ -23906,13 +23907,13 @@ class penumbra_occlusion {
     };
 
     /// A point of the light, or none below the horizon.
-    /// @param beside  its offset from the disc's centre, across and up, divided by the light's distance
-    static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& beside) {
-        if (beside == glm::dvec2(0)) return light;
+    /// @param disc_offset  from the disc's centre, across and up, divided by the light's distance
+    static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& disc_offset) {
+        if (disc_offset == glm::dvec2(0)) return light;
         if (const auto* from_nearby = std::get_if<point_light>(&light))
-            return point_light{point_of_disc(from_nearby->position, beside)};
+            return point_light{point_of_disc(from_nearby->position, disc_offset)};
         const light_frame frame(std::get<directional_light>(light));
-        const glm::dvec3 d = toward_disc(frame.to_light(), frame.travel(), beside);
+        const glm::dvec3 d = toward_disc(frame.to_light(), frame.travel(), disc_offset);
         if (!(d.z > 0)) return std::nullopt;
         const double level = numeric::square_root(d.x * d.x + d.y * d.y);
         return directional_light{numeric::atan2(-d.y, -d.x), numeric::atan2(d.z, level)};

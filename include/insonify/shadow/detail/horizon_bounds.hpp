@@ -165,7 +165,7 @@ class horizon_bounds {
                    isa level, E& ex)
         : grid_(lattice, travel),
           heights_(m, box, grid_, ex),
-          beside_(2 * lattice.off + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
+          lattice_error_(2 * lattice.off + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
         const double greatest = heights_.greatest, least = heights_.least;
         const double relief = grid_.drop * (greatest - least);
         const double size = grid_.columns + grid_.drop * (std::max)(numeric::abs(greatest), numeric::abs(least));
@@ -196,11 +196,11 @@ class horizon_bounds {
         const reals x = grid_.x_of.x * dx + grid_.x_of.y * dy;
         const reals strip = grid_.y_of.x * dx + grid_.y_of.y * dy - grid_.slope * x - static_cast<double>(first_strip_);
         const bits exists = bits(x >= 0.0) & bits(x <= static_cast<double>(grid_.columns - 1)) &
-                            bits(strip >= beside_) & bits(strip < strips_ - beside_);
+                            bits(strip >= lattice_error_) & bits(strip < strips_ - lattice_error_);
         const reals u = x + grid_.drop * p[2];
         // A point close to a line of the lattice may lie in a cell beyond it.
-        const reals column = exists ? x : reals{}, ahead = exists ? x + beside_ : reals{};
-        const reals low = exists ? strip - beside_ : reals{}, high = exists ? strip + beside_ : reals{};
+        const reals column = exists ? x : reals{}, ahead = exists ? x + lattice_error_ : reals{};
+        const reals low = exists ? strip - lattice_error_ : reals{}, high = exists ? strip + lattice_error_ : reals{};
         const auto bound_at = [&](const reals& at, int k) {
             return bound(static_cast<int>(lane(at, k)), static_cast<int>(lane(low, k)),
                          static_cast<int>(lane(high, k)));
@@ -224,8 +224,8 @@ class horizon_bounds {
     const grid_heights& heights() const { return heights_; }
     /// Error bound of u, in columns.
     double margin() const { return margin_; }
-    /// Bound of a vertex's distance from its lattice point, along the light or across, in steps, with a margin.
-    double beside() const { return beside_; }
+    /// Bound of the distance of vertices from their lattice points, along the light or across, in steps, with a margin.
+    double lattice_error() const { return lattice_error_; }
     bool has_strip(int strip) const { return strip >= 0 && strip < strips_; }
     /// Strip number `strip` of a column holds the points with floor(Y - slope X) = strip + first_strip().
     int first_strip() const { return first_strip_; }
@@ -243,7 +243,7 @@ class horizon_bounds {
   private:
     lit_grid grid_;
     grid_heights heights_;
-    double beside_, margin_ = 0;
+    double lattice_error_, margin_ = 0;
     int first_strip_ = 0, strips_ = 0;
     insonify::detail::uninitialized_array<float> bounds_;
 };
