@@ -6511,15 +6511,15 @@ inline std::optional<bool> rising_diagonals(const mesh& m, const lattice_vertice
         const glm::ivec2 corner{(std::min)((std::min)(a.x, b.x), c.x), (std::min)((std::min)(a.y, b.y), c.y)};
         const glm::ivec2 ab = b - a, ac = c - a;
         if (ab.x * ac.y - ab.y * ac.x != 1) return std::nullopt;
-        // With the corners of a cell numbered x + 2 y, a triangle lacks 1 or 2 if its diagonal rises, else 0 or 3.
+        // With the corners of a cell numbered x + 2 y, a triangle lacks 1 or 2 if its diagonal is rising, else 0 or 3.
         int missing_corner = 6;
         for (const glm::ivec2& p : {a, b, c}) {
             if (p.x > corner.x + 1 || p.y > corner.y + 1) return std::nullopt;
             missing_corner -= (p.x - corner.x) + 2 * (p.y - corner.y);
         }
-        const bool rises = missing_corner == 1 || missing_corner == 2;
-        if (is_rising.value_or(rises) != rises) return std::nullopt;
-        is_rising = rises;
+        const bool is_this_rising = missing_corner == 1 || missing_corner == 2;
+        if (is_rising.value_or(is_this_rising) != is_this_rising) return std::nullopt;
+        is_rising = is_this_rising;
         const std::size_t half = 2 * v.index(corner, v.columns() - 1) + (missing_corner < 2 ? 1 : 0);
         if (found[half]) return std::nullopt;
         found[half] = true;
@@ -14760,7 +14760,7 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 /// Bounds of the largest u that rays of a strip meet before a column.
 struct horizon_bound {
     float dark_below;  ///< every ray of the strip meets a u of at least this
-    float lit_above;   ///< points of the column with a larger u are lit; infinity where u does not rise
+    float lit_above;   ///< points of the column with a larger u are lit; infinity where u does not increase
 };
 
 /// Computes the bounds of adjacent strips, column by column: neighbours read mostly the same heights.
@@ -14779,7 +14779,7 @@ struct horizon_kernel {
         bounds_so_far now;
         const auto slope = static_cast<float>(grid.slope);
         float copies[2][static_cast<unsigned>(room)];
-        std::int32_t rises[static_cast<unsigned>(room)];
+        std::int32_t is_facing[static_cast<unsigned>(room)];
         for (int x = 0; x < grid.columns; ++x) {
             // The strips' first row where they cross the column: `row` to `row + 3` surround the first strip up to the
             // next column.
@@ -14792,8 +14792,8 @@ struct horizon_kernel {
             }
             const float* const here = heights_from(x, row, copies[0]);
             const float* const ahead = heights_from(x + 1, row, copies[1]);
-            for (int k = 0; k < count + 2; k += N) find_rises<N>(rises + k, here + k, ahead + k, slope);
-            for (int k = 0; k < count; k += N) advance<N>(now, k, here + k, ahead + k, rises + k, of_column + k);
+            for (int k = 0; k < count + 2; k += N) find_facing<N>(is_facing + k, here + k, ahead + k, slope);
+            for (int k = 0; k < count; k += N) advance<N>(now, k, here + k, ahead + k, is_facing + k, of_column + k);
         }
     }
 
@@ -14820,9 +14820,9 @@ struct horizon_kernel {
         return copy;
     }
 
-    /// Masks of the cells between two columns along which u increases, or where there is no cell.
+    /// Masks of the cells between two columns that face the light, along which u increases, or where there is no cell.
     template <int N>
-    INSONIFY_INLINE void find_rises(std::int32_t* into, const float* here, const float* ahead, float slope) const {
+    INSONIFY_INLINE void find_facing(std::int32_t* into, const float* here, const float* ahead, float slope) const {
         using namespace insonify::detail;
         using ints = lanes<std::int32_t, N>;
         lanes<float, N> a, b, c, d, lower, upper;  // (0,0) (1,0) (0,1) (1,1)
@@ -14845,14 +14845,14 @@ struct horizon_kernel {
     /// @param of_column  where their bounds go
     template <int N>
     INSONIFY_INLINE void advance(bounds_so_far& now, int k, const float* here, const float* ahead,
-                                 const std::int32_t* rises_of, float* of_column) const {
+                                 const std::int32_t* facing_of, float* of_column) const {
         using namespace insonify::detail;
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
         floats dark_below, lit_above, lowest, highest, next;
-        ints rises;
+        ints is_facing;
         load(dark_below, now.dark_below + k), load(lit_above, now.lit_above + k);
-        load(lowest, here), load(rises, rises_of);
+        load(lowest, here), load(is_facing, facing_of);
         highest = lowest;
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             floats other;
@@ -14862,8 +14862,8 @@ struct horizon_kernel {
         });
         unroll<2>([&](int i) INSONIFY_INLINE_LAMBDA {
             ints other;
-            load(other, rises_of + i + 1);
-            rises = rises & other;
+            load(other, facing_of + i + 1);
+            is_facing = is_facing & other;
         });
         // Every ray of the strip meets the column between rows `row` and `row + 2`.
         dark_below = lowest > dark_below ? lowest : dark_below;
@@ -14874,8 +14874,8 @@ struct horizon_kernel {
             load(other, ahead + i);
             next = other > next ? other : next;
         });
-        lit_above = rises ? lit_above : floats(next > lit_above ? next : lit_above);
-        const floats stored = rises ? lit_above : floats{} + std::numeric_limits<float>::infinity();
+        lit_above = is_facing ? lit_above : floats(next > lit_above ? next : lit_above);
+        const floats stored = is_facing ? lit_above : floats{} + std::numeric_limits<float>::infinity();
         store(of_column, dark_below);
         store(of_column + strips, stored);
         store(now.dark_below + k, dark_below), store(now.lit_above + k, lit_above);

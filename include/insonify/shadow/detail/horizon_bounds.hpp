@@ -32,7 +32,7 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 /// Bounds of the largest u that rays of a strip meet before a column.
 struct horizon_bound {
     float dark_below;  ///< every ray of the strip meets a u of at least this
-    float lit_above;   ///< points of the column with a larger u are lit; infinity where u does not rise
+    float lit_above;   ///< points of the column with a larger u are lit; infinity where u does not increase
 };
 
 /// Computes the bounds of adjacent strips, column by column: neighbours read mostly the same heights.
@@ -51,7 +51,7 @@ struct horizon_kernel {
         bounds_so_far now;
         const auto slope = static_cast<float>(grid.slope);
         float copies[2][static_cast<unsigned>(room)];
-        std::int32_t rises[static_cast<unsigned>(room)];
+        std::int32_t is_facing[static_cast<unsigned>(room)];
         for (int x = 0; x < grid.columns; ++x) {
             // The strips' first row where they cross the column: `row` to `row + 3` surround the first strip up to the
             // next column.
@@ -64,8 +64,8 @@ struct horizon_kernel {
             }
             const float* const here = heights_from(x, row, copies[0]);
             const float* const ahead = heights_from(x + 1, row, copies[1]);
-            for (int k = 0; k < count + 2; k += N) find_rises<N>(rises + k, here + k, ahead + k, slope);
-            for (int k = 0; k < count; k += N) advance<N>(now, k, here + k, ahead + k, rises + k, of_column + k);
+            for (int k = 0; k < count + 2; k += N) find_facing<N>(is_facing + k, here + k, ahead + k, slope);
+            for (int k = 0; k < count; k += N) advance<N>(now, k, here + k, ahead + k, is_facing + k, of_column + k);
         }
     }
 
@@ -92,9 +92,9 @@ struct horizon_kernel {
         return copy;
     }
 
-    /// Masks of the cells between two columns along which u increases, or where there is no cell.
+    /// Masks of the cells between two columns that face the light, along which u increases, or where there is no cell.
     template <int N>
-    INSONIFY_INLINE void find_rises(std::int32_t* into, const float* here, const float* ahead, float slope) const {
+    INSONIFY_INLINE void find_facing(std::int32_t* into, const float* here, const float* ahead, float slope) const {
         using namespace insonify::detail;
         using ints = lanes<std::int32_t, N>;
         lanes<float, N> a, b, c, d, lower, upper;  // (0,0) (1,0) (0,1) (1,1)
@@ -117,14 +117,14 @@ struct horizon_kernel {
     /// @param of_column  where their bounds go
     template <int N>
     INSONIFY_INLINE void advance(bounds_so_far& now, int k, const float* here, const float* ahead,
-                                 const std::int32_t* rises_of, float* of_column) const {
+                                 const std::int32_t* facing_of, float* of_column) const {
         using namespace insonify::detail;
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
         floats dark_below, lit_above, lowest, highest, next;
-        ints rises;
+        ints is_facing;
         load(dark_below, now.dark_below + k), load(lit_above, now.lit_above + k);
-        load(lowest, here), load(rises, rises_of);
+        load(lowest, here), load(is_facing, facing_of);
         highest = lowest;
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             floats other;
@@ -134,8 +134,8 @@ struct horizon_kernel {
         });
         unroll<2>([&](int i) INSONIFY_INLINE_LAMBDA {
             ints other;
-            load(other, rises_of + i + 1);
-            rises = rises & other;
+            load(other, facing_of + i + 1);
+            is_facing = is_facing & other;
         });
         // Every ray of the strip meets the column between rows `row` and `row + 2`.
         dark_below = lowest > dark_below ? lowest : dark_below;
@@ -146,8 +146,8 @@ struct horizon_kernel {
             load(other, ahead + i);
             next = other > next ? other : next;
         });
-        lit_above = rises ? lit_above : floats(next > lit_above ? next : lit_above);
-        const floats stored = rises ? lit_above : floats{} + std::numeric_limits<float>::infinity();
+        lit_above = is_facing ? lit_above : floats(next > lit_above ? next : lit_above);
+        const floats stored = is_facing ? lit_above : floats{} + std::numeric_limits<float>::infinity();
         store(of_column, dark_below);
         store(of_column + strips, stored);
         store(now.dark_below + k, dark_below), store(now.lit_above + k, lit_above);
