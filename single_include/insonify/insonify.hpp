@@ -14520,90 +14520,6 @@ draw_stats draw(const mesh_view&, const VertexShader&, const Shader&, const fram
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/shadow/detail/blocking.hpp -------------------------------------------------------
-// Whether a triangle blocks the light of a point, decided in doubles: the reference that every faster test reproduces.
-//
-// A triangle blocks a point's ray towards the light if the ray crosses it, edges included, and the point lies behind
-// its plane by more than the rounding error, 2^-40 of the scene's size. There is no bias. Vertices are sheared so that
-// the ray becomes an axis; the signs of three 2 x 2 determinants then say on which side it passes each edge. Two
-// triangles that share an edge compute the same determinant with opposite signs, and zero counts as inside for both: no
-// light leaks through the edge.
-//
-// Based on: Sven Woop, Carsten Benthin, Ingo Wald. Watertight Ray/Triangle Intersection. JCGT 2, 2013.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace shadow::detail::inline INSONIFY_FLAGS {
-
-/// A light's rays: parallel, or to a point.
-class light_rays {
-  public:
-    /// @param reach  no coordinate of a point that is tested is larger, metres
-    /// @throws invalid_input for a position that is not finite, and as light_frame does
-    light_rays(const any_light& light, double reach) : reach_(reach), light_reach_(reach) {
-        if (const auto* parallel = std::get_if<directional_light>(&light)) {
-            source_ = light_frame(*parallel).to_light();
-        } else {
-            source_ = std::get<point_light>(light).position;
-            is_near_ = true;
-            for (int i = 0; i < 3; ++i) {
-                insonify::detail::require(numeric::is_finite(source_[i]), "point_light.position", source_[i],
-                                          "finite coordinates");
-                light_reach_ = (std::max)(light_reach_, numeric::abs(source_[i]));
-            }
-        }
-    }
-
-    /// From a point to the light: unit length if it is parallel, the whole way if it is near.
-    glm::dvec3 toward(const glm::dvec3& p) const { return is_near_ ? source_ - p : source_; }
-
-    /// Whether the triangle (a, b, c) blocks the light of `from`.
-    bool are_blocked(const glm::dvec3& corner_a, const glm::dvec3& corner_b, const glm::dvec3& corner_c,
-                     const glm::dvec3& from) const {
-        const glm::dvec3 to_light = toward(from), a = corner_a - from, b = corner_b - from, c = corner_c - from;
-        // Corners sheared along the ray, in the two axes of its smaller components. A corner that triangles share is
-        // rounded alike for each.
-        const glm::dvec3 way{numeric::abs(to_light.x), numeric::abs(to_light.y), numeric::abs(to_light.z)};
-        const int axis = way.x >= way.y ? (way.x >= way.z ? 0 : 2) : (way.y >= way.z ? 1 : 2);
-        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        const double shear_u = to_light[u] / to_light[axis], shear_v = to_light[v] / to_light[axis];
-        const auto across = [&](const glm::dvec3& p) {
-            return glm::dvec2(p[u] - shear_u * p[axis], p[v] - shear_v * p[axis]);
-        };
-        const glm::dvec2 a2 = across(a), b2 = across(b), c2 = across(c);
-        const double direction = to_light[axis] < 0 ? -1 : 1;
-        const double bc = direction * (b2.x * c2.y - b2.y * c2.x);
-        const double ca = direction * (c2.x * a2.y - c2.y * a2.x);
-        const double ab = direction * (a2.x * b2.y - a2.y * b2.x);
-        const bool is_left = bc >= 0 && ca >= 0 && ab >= 0, is_right = bc <= 0 && ca <= 0 && ab <= 0;
-        if (!is_left && !is_right) return false;
-        const glm::dvec3 normal = numeric::cross(b - a, c - a);
-        // Measured from the nearest corner: the rounding error of a distant one may exceed the point's distance.
-        const auto size = [](const glm::dvec3& d) { return numeric::abs(d.x) + numeric::abs(d.y) + numeric::abs(d.z); };
-        const glm::dvec3& some = size(a) <= size(b) ? a : b;
-        const double along = numeric::dot(normal, to_light),
-                     behind = numeric::dot(normal, size(some) <= size(c) ? some : c);
-        const double sign = is_left ? 1 : -1;
-        const double tolerance = 0x1p-40 * size(normal);
-        if (!(sign * along > 0 && sign * behind > reach_ * tolerance)) return false;
-        // What the light itself touches does not block it.
-        return !is_near_ || sign * (along - behind) > light_reach_ * tolerance;
-    }
-
-  private:
-    glm::dvec3 source_;           ///< direction, or position
-    double reach_, light_reach_;  ///< of points, and with the light
-    bool is_near_ = false;
-};
-
-}  // namespace shadow::detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/shadow/detail/lit_grid.hpp -------------------------------------------------------
 // A regular grid re-indexed so that parallel light crosses its columns in ascending order, and its heights along the
 // light's rays.
@@ -15650,6 +15566,91 @@ class grid_caster {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/shadow/detail/light_rays.hpp -----------------------------------------------------
+// Rays from points to a light, and whether a triangle blocks them, decided in doubles: the reference that every faster
+// test reproduces.
+//
+// A triangle blocks a point's ray towards the light if the ray crosses it, edges included, and the point lies behind
+// its plane by more than the rounding error, 2^-40 of the scene's size. There is no bias. Vertices are sheared so that
+// the ray becomes an axis; the signs of three 2 x 2 determinants then say on which side it passes each edge. Two
+// triangles that share an edge compute the same determinant with opposite signs, and zero counts as inside for both: no
+// light leaks through the edge.
+//
+// Based on: Sven Woop, Carsten Benthin, Ingo Wald. Watertight Ray/Triangle Intersection. JCGT 2, 2013.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail::inline INSONIFY_FLAGS {
+
+/// A light's rays: parallel, or to a point.
+class light_rays {
+  public:
+    /// @param reach  no coordinate of a point that is tested is larger, metres
+    /// @throws invalid_input for a position that is not finite, and as light_frame does
+    light_rays(const any_light& light, double reach) : reach_(reach), light_reach_(reach) {
+        if (const auto* parallel = std::get_if<directional_light>(&light)) {
+            source_ = light_frame(*parallel).to_light();
+        } else {
+            source_ = std::get<point_light>(light).position;
+            is_near_ = true;
+            for (int i = 0; i < 3; ++i) {
+                insonify::detail::require(numeric::is_finite(source_[i]), "point_light.position", source_[i],
+                                          "finite coordinates");
+                light_reach_ = (std::max)(light_reach_, numeric::abs(source_[i]));
+            }
+        }
+    }
+
+    /// From a point to the light: unit length if it is parallel, the whole way if it is near.
+    glm::dvec3 toward(const glm::dvec3& p) const { return is_near_ ? source_ - p : source_; }
+
+    /// Whether the triangle (a, b, c) blocks the light of `from`.
+    bool are_blocked(const glm::dvec3& corner_a, const glm::dvec3& corner_b, const glm::dvec3& corner_c,
+                     const glm::dvec3& from) const {
+        const glm::dvec3 to_light = toward(from), a = corner_a - from, b = corner_b - from, c = corner_c - from;
+        // Corners sheared along the ray, in the two axes of its smaller components. A corner that triangles share is
+        // rounded alike for each.
+        const glm::dvec3 way{numeric::abs(to_light.x), numeric::abs(to_light.y), numeric::abs(to_light.z)};
+        const int axis = way.x >= way.y ? (way.x >= way.z ? 0 : 2) : (way.y >= way.z ? 1 : 2);
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const double shear_u = to_light[u] / to_light[axis], shear_v = to_light[v] / to_light[axis];
+        const auto across = [&](const glm::dvec3& p) {
+            return glm::dvec2(p[u] - shear_u * p[axis], p[v] - shear_v * p[axis]);
+        };
+        const glm::dvec2 a2 = across(a), b2 = across(b), c2 = across(c);
+        const double direction = to_light[axis] < 0 ? -1 : 1;
+        const double bc = direction * (b2.x * c2.y - b2.y * c2.x);
+        const double ca = direction * (c2.x * a2.y - c2.y * a2.x);
+        const double ab = direction * (a2.x * b2.y - a2.y * b2.x);
+        const bool is_left = bc >= 0 && ca >= 0 && ab >= 0, is_right = bc <= 0 && ca <= 0 && ab <= 0;
+        if (!is_left && !is_right) return false;
+        const glm::dvec3 normal = numeric::cross(b - a, c - a);
+        // Measured from the nearest corner: the rounding error of a distant one may exceed the point's distance.
+        const auto size = [](const glm::dvec3& d) { return numeric::abs(d.x) + numeric::abs(d.y) + numeric::abs(d.z); };
+        const glm::dvec3& some = size(a) <= size(b) ? a : b;
+        const double along = numeric::dot(normal, to_light),
+                     behind = numeric::dot(normal, size(some) <= size(c) ? some : c);
+        const double sign = is_left ? 1 : -1;
+        const double tolerance = 0x1p-40 * size(normal);
+        if (!(sign * along > 0 && sign * behind > reach_ * tolerance)) return false;
+        // What the light itself touches does not block it.
+        return !is_near_ || sign * (along - behind) > light_reach_ * tolerance;
+    }
+
+  private:
+    glm::dvec3 source_;           ///< direction, or position
+    double reach_, light_reach_;  ///< of points, and with the light
+    bool is_near_ = false;
+};
+
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/shadow/detail/occluders.hpp ------------------------------------------------------
 // Casters projected onto one plane of a light: vertices in (u, v, height), and for each tile of the plane the triangles
 // that touch it.
@@ -16082,7 +16083,7 @@ INSONIFY_ARITHMETIC_END
 // receivers themselves.
 //
 // Each triangle is compared with the receivers of the cells that it touches, several at a time, in float. Results
-// within the error of float are decided in double (blocking.hpp), so that every pair of triangle and receiver has the
+// within the error of float are decided in double (light_rays.hpp), so that every pair of triangle and receiver has the
 // result of the test in double. A receiver's own triangle is skipped by its index; there is no bias.
 //
 // Based on: Timo Aila, Samuli Laine. Alias-Free Shadow Maps. EGSR 2004. Gregory S. Johnson, Juhyun Lee, Christopher A.
@@ -16493,7 +16494,7 @@ INSONIFY_ARITHMETIC_END
 // cells of a tile, and each triangle is tested against the points under it (detail/occlusion_kernel.hpp). The cost is
 // linear in triangles and points, and there is no resolution and no bias.
 //
-// Every result is decided by one test in doubles (detail/blocking.hpp), for any mesh: open, closed, self-intersecting
+// Every result is decided by one test in doubles (detail/light_rays.hpp), for any mesh: open, closed, self-intersecting
 // or inside out. Triangles are skipped only where that provably changes nothing (shadow::skip).
 
 INSONIFY_ARITHMETIC_BEGIN

@@ -1,4 +1,5 @@
-// Whether a triangle blocks the light of a point, decided in doubles: the reference that every faster test reproduces.
+// Rays from points to a light, and whether a triangle blocks them, decided in doubles: the reference that every faster
+// test reproduces.
 //
 // A triangle blocks a point's ray towards the light if the ray crosses it, edges included, and the point lies behind
 // its plane by more than the rounding error, 2^-40 of the scene's size. There is no bias. Vertices are sheared so that
