@@ -14902,7 +14902,7 @@ INSONIFY_ARITHMETIC_END
 // The planes onto which casters and points are projected along a light's rays.
 //
 // Parallel light has one plane, the datum in the light's sheared frame (light.hpp). Light from a point has six, the
-// sides of a cube around it, each seen in perspective. On a plane every ray is one point (u, v), triangles stay
+// faces of a cube around it, each seen in perspective. On a plane every ray is one point (u, v), triangles stay
 // triangles, and of two points of a ray the one with the larger height is nearer to the light.
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -14919,11 +14919,11 @@ class light_plane {
         : rows_{{frame.travel().x, frame.travel().y, frame.cot_elevation()},
                 {-frame.travel().y, frame.travel().x, 0},
                 {0, 0, 1}} {}
-    /// @param side  0 to 5: along +x, -x, +y, -y, +z, -z of the light
-    light_plane(const point_light& light, int side) : origin_(light.position), is_near_(true) {
-        const int axis = side / 2;
+    /// @param face  0 to 5: along +x, -x, +y, -y, +z, -z of the light
+    light_plane(const point_light& light, int face) : origin_(light.position), is_near_(true) {
+        const int axis = face / 2;
         rows_[0][(axis + 1) % 3] = rows_[1][(axis + 2) % 3] = 1;
-        rows_[2][axis] = side % 2 == 0 ? 1 : -1;
+        rows_[2][axis] = face % 2 == 0 ? 1 : -1;
     }
 
     bool is_near() const { return is_near_; }
@@ -14941,8 +14941,8 @@ class light_plane {
         return {before.x / before.z, before.y / before.z, 1 / before.z};
     }
 
-    /// Number of the plane of a point light over which a point lies.
-    static int side_of(const point_light& light, const glm::dvec3& p) {
+    /// Number of the cube's face, seen from a point light, that a point lies over.
+    static int face_of(const point_light& light, const glm::dvec3& p) {
         const glm::dvec3 d = p - light.position;
         const glm::dvec3 size{numeric::abs(d.x), numeric::abs(d.y), numeric::abs(d.z)};
         const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
@@ -16330,8 +16330,8 @@ struct tiled_plane {
     static int clamped(double at, int count) { return static_cast<int>((std::min)((std::max)(0.0, at), count - 1.0)); }
 };
 
-/// All planes of one light, with their tiles numbered consecutively: one plane for parallel light, or the six sides of
-/// a cube around a point light. Sides that no point lies over have no casters and no tiles.
+/// All planes of one light, with their tiles numbered consecutively: one plane for parallel light, or the six faces of
+/// a cube around a point light. Faces that no point lies over have no casters and no tiles.
 class tiled_planes {
   public:
     explicit tiled_planes(const any_light& light) {
@@ -16361,12 +16361,12 @@ class tiled_planes {
         std::uint32_t occupant;    ///< of the tile
     };
     place of(const glm::dvec3& p) const {
-        const auto side = static_cast<std::size_t>(near_light_ ? light_plane::side_of(*near_light_, p) : 0);
-        const tiled_plane& on = planes_[side];
+        const auto face = static_cast<std::size_t>(near_light_ ? light_plane::face_of(*near_light_, p) : 0);
+        const tiled_plane& on = planes_[face];
         if (on.casters.empty()) return {};
         const glm::dvec3 before = on.plane(p), seen = near_light_ ? light_plane::seen(before) : before;
         const std::size_t tile = on.tile_of(seen);
-        return {&on, seen, starts_[side] + tile, on.occupant[tile]};
+        return {&on, seen, starts_[face] + tile, on.occupant[tile]};
     }
 
   private:
@@ -16661,7 +16661,7 @@ class exact_occlusion {
         add_plane(plane, {lower, upper - lower, side, side}, 0x1p-44 * reach_of(bounds) * (1 + frame.cot_elevation()),
                   0, ex);
     }
-    /// The six sides of a cube around a point light.
+    /// The six faces of a cube around a point light.
     template <executor E>
     void add_point_planes(const point_light& light, const bounding_box& bounds, int side, E& ex) {
         for (int i = 0; i < 6; ++i) {

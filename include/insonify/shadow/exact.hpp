@@ -182,7 +182,7 @@ class exact_occlusion {
         add_plane(plane, {lower, upper - lower, side, side}, 0x1p-44 * reach_of(bounds) * (1 + frame.cot_elevation()),
                   0, ex);
     }
-    /// The six sides of a cube around a point light.
+    /// The six faces of a cube around a point light.
     template <executor E>
     void add_point_planes(const point_light& light, const bounding_box& bounds, int side, E& ex) {
         for (int i = 0; i < 6; ++i) {
