@@ -1324,8 +1324,9 @@ void validate_if_possible(const T& value) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/linear.hpp ------------------------------------------------------------------
-// Vectors and matrices: products with fixed rounding, and whether coordinates are finite. GLM's products may be compiled
-// with fused multiply-add, which would make pictures depend on compiler flags. Storage, sums and scalings are GLM's.
+// Vectors and matrices: products with fixed rounding, dominant axes, and whether coordinates are finite. GLM's products
+// may be compiled with fused multiply-add, which would make pictures depend on compiler flags. Storage, sums and
+// scalings are GLM's.
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -1354,6 +1355,13 @@ INSONIFY_INLINE T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
 template <class T>
 INSONIFY_INLINE glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
     return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
+}
+
+/// Axis of the component of largest magnitude, the first of equal ones.
+template <class T>
+INSONIFY_INLINE int dominant_axis(const glm::vec<3, T>& v) {
+    const T x = abs(v.x), y = abs(v.y), z = abs(v.z);
+    return x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
 }
 
 /// m v, as GLM stores matrices: by columns.
@@ -14944,8 +14952,7 @@ class light_plane {
     /// Number of the cube's face, seen from a point light, that a point lies over.
     static int face_of(const point_light& light, const glm::dvec3& p) {
         const glm::dvec3 d = p - light.position;
-        const glm::dvec3 size{numeric::abs(d.x), numeric::abs(d.y), numeric::abs(d.z)};
-        const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+        const int axis = numeric::dominant_axis(d);
         return 2 * axis + (d[axis] < 0 ? 1 : 0);
     }
 
@@ -15612,8 +15619,7 @@ class light_rays {
         const glm::dvec3 to_light = toward(from), a = corner_a - from, b = corner_b - from, c = corner_c - from;
         // Corners sheared along the ray, in the two axes of its smaller components. A corner that triangles share is
         // rounded alike for each.
-        const glm::dvec3 way{numeric::abs(to_light.x), numeric::abs(to_light.y), numeric::abs(to_light.z)};
-        const int axis = way.x >= way.y ? (way.x >= way.z ? 0 : 2) : (way.y >= way.z ? 1 : 2);
+        const int axis = numeric::dominant_axis(to_light);
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
         const double shear_u = to_light[u] / to_light[axis], shear_v = to_light[v] / to_light[axis];
         const auto across = [&](const glm::dvec3& p) {

@@ -51,8 +51,7 @@ class light_plane {
     /// Number of the cube's face, seen from a point light, that a point lies over.
     static int face_of(const point_light& light, const glm::dvec3& p) {
         const glm::dvec3 d = p - light.position;
-        const glm::dvec3 size{numeric::abs(d.x), numeric::abs(d.y), numeric::abs(d.z)};
-        const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+        const int axis = numeric::dominant_axis(d);
         return 2 * axis + (d[axis] < 0 ? 1 : 0);
     }
 
