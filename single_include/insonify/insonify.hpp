@@ -22217,12 +22217,12 @@ inline void validate(const stencil& s) {
 }
 
 /// Evaluates an `area` along rows.
-class outline {
+class area_sampler {
   public:
     /// @param border  metres, > 0: the finest detail of the outline
     /// @param ragged  metres: rms deviation of the outline from the shape
     /// @param layer   selects the random stream, so that outlines of one seed differ
-    outline(area where, float border, float ragged, std::uint64_t seed, std::uint32_t layer)
+    area_sampler(area where, float border, float ragged, std::uint64_t seed, std::uint32_t layer)
         : shape_(std::move(where)), noise_(roughness_of(shape_, border, ragged), seed, stream::mask, layer) {
         if (const auto* p = std::get_if<patches>(&shape_)) {
             require_fraction("patches.coverage", p->coverage);
@@ -22706,7 +22706,7 @@ struct sample_range {
 /// Composites a layer over the ground below. `below(line, heights, types)` evaluates the ground where the layer does
 /// not hide it.
 template <class Below, typed_sampler Layer>
-void lay_over(const outline& where, const border& edge, const Layer& layer, const scanline& line,
+void lay_over(const area_sampler& where, const border& edge, const Layer& layer, const scanline& line,
               std::span<float> heights, std::span<type> types, Below&& below) {
     const std::size_t count = heights.size();
     const stretch part(line, count);
@@ -22829,7 +22829,7 @@ class mixed_sampler {
 
     struct prepared_layer {
         any_sampler bottom;
-        detail::outline where;
+        detail::area_sampler where;
         detail::border edge;
     };
     any_sampler base_;

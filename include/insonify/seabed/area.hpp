@@ -182,12 +182,12 @@ inline void validate(const stencil& s) {
 }
 
 /// Evaluates an `area` along rows.
-class outline {
+class area_sampler {
   public:
     /// @param border  metres, > 0: the finest detail of the outline
     /// @param ragged  metres: rms deviation of the outline from the shape
     /// @param layer   selects the random stream, so that outlines of one seed differ
-    outline(area where, float border, float ragged, std::uint64_t seed, std::uint32_t layer)
+    area_sampler(area where, float border, float ragged, std::uint64_t seed, std::uint32_t layer)
         : shape_(std::move(where)), noise_(roughness_of(shape_, border, ragged), seed, stream::mask, layer) {
         if (const auto* p = std::get_if<patches>(&shape_)) {
             require_fraction("patches.coverage", p->coverage);

@@ -65,7 +65,7 @@ struct sample_range {
 /// Composites a layer over the ground below. `below(line, heights, types)` evaluates the ground where the layer does
 /// not hide it.
 template <class Below, typed_sampler Layer>
-void lay_over(const outline& where, const border& edge, const Layer& layer, const scanline& line,
+void lay_over(const area_sampler& where, const border& edge, const Layer& layer, const scanline& line,
               std::span<float> heights, std::span<type> types, Below&& below) {
     const std::size_t count = heights.size();
     const stretch part(line, count);
