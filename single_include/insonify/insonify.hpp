@@ -1164,6 +1164,15 @@ constexpr std::int64_t floor_to_int(double value) {
     return truncated - (static_cast<double>(truncated) > value ? 1 : 0);
 }
 
+/// Rounds a length, above 0 and finite, to eight significant bits: its multiples are exact in double, so that nodes at
+/// multiples of it are the same in every row.
+inline double rounded_to_eight_bits(double length) {
+    double unit = 1;
+    while (unit * 256 <= length) unit *= 2;
+    while (unit * 128 > length) unit /= 2;
+    return static_cast<double>(floor_to_int(length / unit + 0.5)) * unit;
+}
+
 /// Natural logarithm, <= 1 ulp. log(0) = -infinity, negative and NaN give NaN.
 ///
 /// x = 2^k m with m in [sqrt(1/2), sqrt(2)); log m = 2 atanh((m - 1) / (m + 1)) as a series.
@@ -8696,15 +8705,6 @@ struct lattice {
     double u(double x) const { return x * frequency + offset_x; }
     double v(double y) const { return y * frequency + offset_y; }
 };
-
-/// Rounds a length, above 0 and finite, to eight significant bits: its multiples are exact in double, so that nodes at
-/// multiples of it are the same in every row.
-inline double rounded_to_eight_bits(double length) {
-    double unit = 1;
-    while (unit * 256 <= length) unit *= 2;
-    while (unit * 128 > length) unit /= 2;
-    return static_cast<double>(numeric::floor_to_int(length / unit + 0.5)) * unit;
-}
 
 /// A coordinate on a lattice: its cell and the fraction within it.
 struct lattice_coordinate {
@@ -23318,7 +23318,7 @@ inline std::array<float, 16> spline_weights(float fraction) {
 /// @param ground  fills the heights of rows
 template <class Ground>
 void smooth_row(const smooth& e, const scanline& line, std::span<float> heights, Ground&& ground) {
-    const double step = rounded_to_eight_bits(static_cast<double>(e.length)) / 4;
+    const double step = numeric::rounded_to_eight_bits(static_cast<double>(e.length)) / 4;
     const lattice_coordinate v(line.y / step);
     const std::int64_t first = numeric::floor_to_int(line.x(0) / step) - 7;
     const std::int64_t last = numeric::floor_to_int(line.x(heights.size() - 1) / step) + 8;
@@ -24675,7 +24675,7 @@ class bottom_tiles {
     /// Rounds a length so that its multiples are exact: a vertex has the same coordinates in every row.
     static double even(double length) {
         require(length > 1e-9 && length < 1e9, "cell", length, "metres above 0");
-        return seabed::detail::rounded_to_eight_bits(length);
+        return numeric::rounded_to_eight_bits(length);
     }
 
     /// Samples the seabed below some pings, and discards all other tiles.
