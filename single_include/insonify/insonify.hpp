@@ -11638,7 +11638,7 @@ struct tile_grid {
 
     std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
     /// Tiles per call of the executor, which share one buffer; one in small pictures, so that every thread gets work.
-    std::size_t run() const { return count() < 64 ? 1 : 4; }
+    std::size_t grain() const { return count() < 64 ? 1 : 4; }
     /// The tile of a pixel.
     std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(y >> log2_size) * static_cast<std::size_t>(columns) +
@@ -12387,7 +12387,7 @@ class projection {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/detail/screen_polygon.hpp -------------------------------------------------
-// Clipped triangles on the pixel grid, divided into triangles or runs of pixels.
+// Clipped triangles on the pixel grid, divided into triangles or spans of pixels.
 //
 // Snapping can fold a thin polygon over itself: a vertex that lands on the wrong side of an edge flips one of the
 // triangles that the polygon is divided into, and pixels beside the polygon would be hit. The winding number then
@@ -12436,11 +12436,11 @@ class screen_polygon {
         return center_rect(low, high, high, grid);
     }
 
-    /// Calls `part(corners, pixels, is_run)` for disjoint parts of the polygon: triangles of three of its corners; or,
-    /// if it is folded, runs of covered pixels in the plane of three of its corners.
+    /// Calls `part(corners, pixels, is_span)` for disjoint parts of the polygon: triangles of three of its corners; or,
+    /// if it is folded, spans of covered pixels in the plane of three of its corners.
     template <class Part>
     void for_each_part(const pixel_grid& grid, const Part& part) const {
-        if (turns_[0] && turns_[2]) return for_each_run(grid, part);
+        if (turns_[0] && turns_[2]) return for_each_span(grid, part);
         for (int i = 1; i + 1 < count_; ++i) {
             const rect pixels = center_rect(at(0), at(i), at(i + 1), grid);
             if (!pixels.empty() && wide_area(at(0), at(i), at(i + 1)).sign() != 0)
@@ -12450,7 +12450,7 @@ class screen_polygon {
 
   private:
     template <class Part>
-    void for_each_run(const pixel_grid& grid, const Part& part) const {
+    void for_each_span(const pixel_grid& grid, const Part& part) const {
         const std::array<int, 3> plane{0, largest_part_, largest_part_ + 1};
         const rect all = pixels(grid);
         for (int y = all.y0; y < all.y1; ++y) {
@@ -13148,7 +13148,7 @@ struct wide_triangle {
     std::array<screen_vertex, 3> corners;
     std::array<glm::dvec3, 3> weights;  ///< barycentric, of each corner in the mesh's triangle
     std::uint32_t triangle;
-    rect run;  ///< if not empty, exactly the pixels that it covers
+    rect span;  ///< of a folded polygon: exactly the pixels that it covers, in one row; else empty
 };
 
 /// A triangle as looked up by its id: its corners in clockwise order on the screen.
@@ -13158,7 +13158,7 @@ struct screen_triangle {
     std::uint32_t triangle;     ///< index into the mesh
     const wide_triangle* wide;  ///< null for a compact one
 
-    bool is_run() const { return wide != nullptr && !wide->run.empty(); }
+    bool is_span() const { return wide != nullptr && !wide->span.empty(); }
 
     /// Perspective-correct barycentric weights of the mesh triangle's vertices at a pixel's centre.
     glm::dvec3 weights_at(int x, int y, const pixel_grid& grid) const {
@@ -13166,7 +13166,7 @@ struct screen_triangle {
             const std::int64_t run = to.x - from.x, rise = to.y - from.y;
             const std::int64_t right = grid.center(x) - from.x, down = grid.center(y) - from.y;
             if (wide == nullptr) return static_cast<double>(compact_side(run, rise, right, down));
-            // Pixels of a run may lie just outside of the corners, where a weight would be negative.
+            // Pixels of a span may lie just outside of the corners, where a weight would be negative.
             const double weight = double_double::from(wide_side(run, rise, right, down)).high;
             return weight > 0 ? weight : 0.0;
         };
@@ -13354,14 +13354,14 @@ class screen_mesh {
         if (on_screen.area_sign() == 0) return outcome::degenerate;
         if (is_culled(on_screen.area_sign() < 0)) return outcome::culled;
         outcome result = outcome::missed;
-        on_screen.for_each_part(grid_, [&](std::array<int, 3> corners, const rect& pixels, bool is_run) {
+        on_screen.for_each_part(grid_, [&](std::array<int, 3> corners, const rect& pixels, bool is_span) {
             wide_triangle part{};
             for (std::size_t k = 0; k < 3; ++k) {
                 part.corners[k] = on_screen.at(corners[k]);
                 part.weights[k] = polygon.corners[static_cast<std::size_t>(corners[k])].weights;
             }
             part.triangle = triangle;
-            if (is_run) part.run = pixels;
+            if (is_span) part.span = pixels;
             out.runs.add(compact_count_ + static_cast<std::uint32_t>(out.wide.size()), 1, tiles.touched(pixels), false);
             out.wide.push_back(part);
             result = outcome::drawn;
@@ -14133,12 +14133,12 @@ struct tile_triangles {
     INSONIFY_RARE triangle_setup setup(std::uint32_t id) const {
         const screen_triangle t = screen[id];
         triangle_setup s = triangle_setup::of(t.a, t.b, t.c, grid(), pixels_of(t), tile_buffer<false>::slack);
-        if (t.is_run()) s.cover_all();
+        if (t.is_span()) s.cover_all();
         return s;
     }
     /// The pixels of the tile that a triangle may cover.
     rect pixels_of(const screen_triangle& t) const {
-        return intersect(pixels, t.is_run() ? t.wide->run : center_rect(t.a, t.b, t.c, grid()));
+        return intersect(pixels, t.is_span() ? t.wide->span : center_rect(t.a, t.b, t.c, grid()));
     }
     INSONIFY_RARE float rounded_depth(std::uint32_t id, int x, int y) const {
         const screen_triangle t = screen[id];
@@ -14407,9 +14407,9 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& shader, image_view
     const screen_mesh<real> screen(m, shader, grid, tiles, options, HasIds, records, ex);
     const float sign = options.keep == keep_depth::smaller ? 1.0f : -1.0f;
 
-    const std::size_t run = tiles.run();
-    dynamic_array<std::uint64_t> shaded((tiles.count() + run - 1) / run, 0);
-    bulk_ranges(ex, tiles.count(), run, [&](std::size_t first, std::size_t last) {
+    const std::size_t grain = tiles.grain();
+    dynamic_array<std::uint64_t> shaded((tiles.count() + grain - 1) / grain, 0);
+    bulk_ranges(ex, tiles.count(), grain, [&](std::size_t first, std::size_t last) {
         tile_buffer<HasIds> buffer(options.tile);
         for (std::size_t tile = first; tile < last; ++tile) {
             const tile_triangles<real> triangles{screen, screen.bin(tile), tiles.pixels(tile, grid.width, grid.height),
@@ -14418,7 +14418,7 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& shader, image_view
             if (triangles.bin.empty() && keep) continue;
             dispatch(tile_kernel<tile_triangles<real>, HasIds, real>{triangles, buffer, depth, sign, keep},
                      options.level);
-            shaded[first / run] += finish(triangles, buffer, sign);
+            shaded[first / grain] += finish(triangles, buffer, sign);
         }
     });
     draw_stats stats = screen.stats();
@@ -17077,7 +17077,7 @@ class pixel_marks {
 /// A pixel whose light is undecided, of one tile.
 struct undecided_pixel {
     std::uint16_t column, row;  ///< within the tile
-    std::uint32_t id;           ///< of its triangle, counted over all surfaces
+    std::uint32_t id;           ///< of its triangle, counted over all objects
     float direct;               ///< light that the source adds if nothing blocks it
 };
 
@@ -17232,8 +17232,8 @@ struct surface_vertex_shader {
     }
 };
 
-/// The bottom or a target, for the passes over the picture.
-struct surface {
+/// The bottom or a target as it is drawn, for the passes over the picture.
+struct drawn_object {
     placed_mesh placed;
     std::uint32_t first_id = 0;               ///< of its triangles in the visibility buffer
     std::uint32_t caster = 0;                 ///< index into the casters
@@ -17242,7 +17242,7 @@ struct surface {
     material whole;                           ///< if there are no types
     const seabed::type* types = nullptr;      ///< by vertex, of a bottom of several types
     const material* materials = nullptr;      ///< by type
-    std::uint16_t self_shadow_label = 0;      ///< label in labels::shadow where the surface shades itself
+    std::uint16_t self_shadow_label = 0;      ///< label in labels::shadow where the object shades itself
     const shadow::decision* known = nullptr;  ///< lit, dark or undecided, by triangle; null if none is decided
 };
 
@@ -17264,11 +17264,11 @@ struct shaded_images {
     }
 };
 
-/// Fragment shader over lanes of one surface.
+/// Fragment shader over lanes of one object.
 template <class Law>
 class surface_shader {
   public:
-    surface_shader(const overhead_geometry& view, const surface& object, const Law& law, const shaded_images& into)
+    surface_shader(const overhead_geometry& view, const drawn_object& object, const Law& law, const shaded_images& into)
         : object_(object),
           into_(into),
           law_(law),
@@ -17414,7 +17414,7 @@ class surface_shader {
             gather<N>(into, [&](int k) { return static_cast<float>(law_(lane(sine, k))); });
     }
 
-    const surface& object_;
+    const drawn_object& object_;
     shaded_images into_;
     Law law_;
     bool is_near_;
@@ -17579,7 +17579,7 @@ struct shown_pixel {
 
 /// Finds the points of some pixels of one object.
 struct point_kernel {
-    const surface& object;
+    const drawn_object& object;
     const view_from_object& from;
     std::span<const shown_pixel> pixels;
     bool has_near_light;
@@ -18233,9 +18233,9 @@ inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// The object that a visibility buffer's id belongs to.
-inline const surface& surface_of(const dynamic_array<surface>& surfaces, std::uint32_t id) {
-    const auto after = std::upper_bound(surfaces.begin(), surfaces.end(), id,
-                                        [](std::uint32_t i, const surface& s) { return i < s.first_id; });
+inline const drawn_object& object_of(const dynamic_array<drawn_object>& objects, std::uint32_t id) {
+    const auto after = std::upper_bound(objects.begin(), objects.end(), id,
+                                        [](std::uint32_t i, const drawn_object& s) { return i < s.first_id; });
     return *(after - 1);
 }
 
@@ -18250,17 +18250,17 @@ class shadow_pass {
     };
 
     /// @param targets  casters numbered below this are targets
-    shadow_pass(const overhead_geometry& view, const dynamic_array<surface>& surfaces, const images& of,
+    shadow_pass(const overhead_geometry& view, const dynamic_array<drawn_object>& objects, const images& of,
                 std::size_t targets, int tile, isa level)
         : view_(view),
-          surfaces_(surfaces),
+          objects_(objects),
           images_(of),
           targets_(static_cast<std::uint32_t>(targets)),
           tiles_(of.picture.width(), of.picture.height(), std::countr_zero(static_cast<unsigned>(tile))),
           tile_pixels_(static_cast<std::size_t>(tile) * static_cast<std::size_t>(tile)),
-          run_((std::min)(tiles_.run(), shadow::max_batch / tile_pixels_)),
+          grain_((std::min)(tiles_.grain(), shadow::max_batch / tile_pixels_)),
           level_(level) {
-        for (const surface& s : surfaces) frames_.push_back({view, s.placed.to_rig});
+        for (const drawn_object& s : objects) frames_.push_back({view, s.placed.to_rig});
     }
 
     /// Tests the points of every tile and adds the light that arrives. Occlusion that sees all points at once gets
@@ -18269,8 +18269,8 @@ class shadow_pass {
     void cast(const Occlusion& occlusion, E& ex) {
         constexpr bool is_collective = shadow::collective_occlusion<Occlusion>;
         dynamic_array<std::size_t> undecided(is_collective ? tiles_.count() : 0);  // points of each tile
-        bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
-            scratch room(surfaces_.size(), tile_pixels_);
+        bulk_ranges(ex, tiles_.count(), grain_, [&](std::size_t first, std::size_t last) {
+            scratch room(objects_.size(), tile_pixels_);
             for (std::size_t i = first; i < last; ++i) {
                 point_list points(room.points, 0, tile_pixels_);
                 find_points(i, room.shown, points);
@@ -18291,31 +18291,31 @@ class shadow_pass {
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
 
-    using shown_by_surface = dynamic_array<dynamic_array<shown_pixel>>;
+    using shown_by_object = dynamic_array<dynamic_array<shown_pixel>>;
     /// Memory that the tiles of a run share.
     struct scratch {
         point_batch points;
         light_arrays light;
-        shown_by_surface shown;
+        shown_by_object shown;
 
-        scratch(std::size_t surfaces, std::size_t pixels) : points(pixels), light(pixels), shown(surfaces) {}
+        scratch(std::size_t objects, std::size_t pixels) : points(pixels), light(pixels), shown(objects) {}
     };
 
     rect pixels_of(std::size_t tile) const {
         return tiles_.pixels(tile, images_.picture.width(), images_.picture.height());
     }
     /// The points of a tile whose light is undecided.
-    void find_points(std::size_t tile, shown_by_surface& shown, point_list& into) {
-        const surface* last = surfaces_.data();
+    void find_points(std::size_t tile, shown_by_object& shown, point_list& into) {
+        const drawn_object* last = objects_.data();
         images_.undecided.take(tile, [&](const undecided_pixel& p) {
-            if (p.id - last->first_id >= last->placed.shape.triangles.size()) last = &surface_of(surfaces_, p.id);
-            shown[static_cast<std::size_t>(last - surfaces_.data())].push_back(
+            if (p.id - last->first_id >= last->placed.shape.triangles.size()) last = &object_of(objects_, p.id);
+            shown[static_cast<std::size_t>(last - objects_.data())].push_back(
                 {p.column, p.row, p.id - last->first_id, p.direct});
         });
         const rect pixels = pixels_of(tile);
         for (std::size_t i = 0; i < frames_.size(); ++i) {
             if (shown[i].empty()) continue;
-            dispatch(point_kernel{surfaces_[i], frames_[i], shown[i], view_.has_near_light(), labelled, pixels,
+            dispatch(point_kernel{objects_[i], frames_[i], shown[i], view_.has_near_light(), labelled, pixels,
                                   static_cast<std::uint32_t>(images_.picture.width()), into},
                      level_);
             shown[i].clear();
@@ -18343,7 +18343,7 @@ class shadow_pass {
     void test_together(const Occlusion& occlusion, const dynamic_array<std::size_t>& undecided, E& ex) {
         // Tiles share a list, and more of them in large pictures, so that batches stay within their number: a list has
         // up to two.
-        const std::size_t tiles_per_list = (std::max)(run_, tiles_.count() / (shadow::max_batches / 2) + 1);
+        const std::size_t tiles_per_list = (std::max)(grain_, tiles_.count() / (shadow::max_batches / 2) + 1);
         dynamic_array<std::size_t> starts{0};  // of the points of each list
         for (std::size_t i = 0; i < tiles_.count(); ++i) {
             if (i % tiles_per_list == 0) starts.push_back(starts.back());
@@ -18354,7 +18354,7 @@ class shadow_pass {
         dynamic_array<point_list> lists;
         for (std::size_t i = 0; i + 1 < starts.size(); ++i) lists.push_back({all, starts[i], starts[i + 1]});
         bulk_ranges(ex, tiles_.count(), tiles_per_list, [&](std::size_t first, std::size_t last) {
-            shown_by_surface shown(surfaces_.size());
+            shown_by_object shown(objects_.size());
             for (std::size_t i = first; i < last; ++i)
                 if (undecided[i] > 0) find_points(i, shown, lists[first / tiles_per_list]);
         });
@@ -18394,13 +18394,13 @@ class shadow_pass {
     }
 
     const overhead_geometry& view_;
-    const dynamic_array<surface>& surfaces_;
-    dynamic_array<view_from_object> frames_;  ///< of the surfaces
+    const dynamic_array<drawn_object>& objects_;
+    dynamic_array<view_from_object> frames_;  ///< of the objects
     images images_;
     std::uint32_t targets_;
     tile_grid tiles_;
     std::size_t tile_pixels_;
-    std::size_t run_;  ///< tiles of a batch
+    std::size_t grain_;  ///< tiles of a batch
     isa level_;
 };
 
@@ -18447,21 +18447,21 @@ class overhead_painter {
     frame<Labels> paint(executor_ref ex) {
         if constexpr (casts) {
             dynamic_array<shadow::caster> casters;
-            for (const surface& t : targets()) casters.push_back(as_caster(view_, t.placed));
-            if (has_bottom()) casters.push_back(as_caster(view_, surfaces_.front().placed));
+            for (const drawn_object& t : targets()) casters.push_back(as_caster(view_, t.placed));
+            if (has_bottom()) casters.push_back(as_caster(view_, objects_.front().placed));
             const shadow::point_bounds bounds{receivers(), view_.ground_sampling(), options_.level};
             const auto occlusion =
                 options_.shadow.build(std::span<const shadow::caster>(casters), view_.light_source(), bounds, ex);
             const auto known = decide_triangles(occlusion, ex);
             draw_all(ex);
-            shadow_pass<Labels>(view_, surfaces_, {undecided_, out_.image, out_.labels}, targets().size(),
-                                options_.tile, options_.level)
+            shadow_pass<Labels>(view_, objects_, {undecided_, out_.image, out_.labels}, targets().size(), options_.tile,
+                                options_.level)
                 .cast(occlusion, ex);
         } else {
             draw_all(ex);
         }
         if constexpr (labelled) {
-            label_surfaces(ex);
+            label_objects(ex);
             measure_targets(out_.labels);
         }
         return std::move(out_);
@@ -18474,7 +18474,7 @@ class overhead_painter {
         for (std::size_t i = 0; i < shown.triangle.size(); ++i) {
             std::uint32_t& id = shown.triangle.pixels()[i];
             if (id == visibility::no_triangle) continue;
-            const surface& s = surface_of(surfaces_, id);
+            const drawn_object& s = object_of(objects_, id);
             shown.instance.pixels()[i] = s.instance;
             id -= s.first_id;
         }
@@ -18486,20 +18486,20 @@ class overhead_painter {
     static constexpr bool casts = !std::is_same_v<Shadow, shadow::none>;
 
     bool has_bottom() const { return !scene_.seabed.empty(); }
-    std::span<const surface> targets() const {
-        return {surfaces_.data() + (has_bottom() ? 1 : 0), scene_.targets.size()};
+    std::span<const drawn_object> targets() const {
+        return {objects_.data() + (has_bottom() ? 1 : 0), scene_.targets.size()};
     }
 
     /// @param caster  targets are numbered from 0 on, the seabed follows
     void add(const placed_mesh& placed, std::size_t caster, std::uint16_t instance, std::uint8_t seabed,
              const material& m) {
-        const std::uint64_t first = surfaces_.empty() ? 0
-                                                      : std::uint64_t{surfaces_.back().first_id} +
-                                                            surfaces_.back().placed.shape.triangles.size();
+        const std::uint64_t first =
+            objects_.empty() ? 0
+                             : std::uint64_t{objects_.back().first_id} + objects_.back().placed.shape.triangles.size();
         const std::uint64_t end = first + placed.shape.triangles.size();
         require(end < shadow::invalid_id, "triangles of the scene", end, "below 2^32 - 1");
-        surfaces_.push_back({});
-        surface& s = surfaces_.back();
+        objects_.push_back({});
+        drawn_object& s = objects_.back();
         s.placed = placed;
         s.first_id = static_cast<std::uint32_t>(first);
         s.caster = static_cast<std::uint32_t>(caster);
@@ -18534,8 +18534,8 @@ class overhead_painter {
         add(bottom_.placed_under(view_), scene_.targets.size(), labels::no_instance,
             static_cast<std::uint8_t>(field.fallback), materials_[seabed::index_of(field.fallback)]);
         if (field.types.empty()) return;
-        surfaces_.back().types = field.types.pixels().data();
-        surfaces_.back().materials = materials_.data();
+        objects_.back().types = field.types.pixels().data();
+        objects_.back().materials = materials_.data();
     }
 
     /// A box around everything that the picture may show.
@@ -18545,7 +18545,7 @@ class overhead_painter {
             low = (std::numeric_limits<double>::max)();
             top = -low;
         }
-        for (const surface& t : targets())
+        for (const drawn_object& t : targets())
             for (int corner = 0; corner < 8 && !t.placed.box.empty(); ++corner) {
                 const double z = transform_point(t.placed.to_rig, t.placed.box.corner(corner)).z;
                 top = (std::max)(top, z);
@@ -18556,12 +18556,12 @@ class overhead_painter {
         return {{-half, low}, {half, top}};
     }
 
-    /// Decides whole triangles before they are drawn, lit or dark. The surfaces point to the results.
+    /// Decides whole triangles before they are drawn, lit or dark. The objects point to the results.
     template <class Occlusion>
     dynamic_array<uninitialized_array<shadow::decision>> decide_triangles(const Occlusion& occlusion, executor_ref ex) {
         dynamic_array<uninitialized_array<shadow::decision>> known;
         if constexpr (shadow::triangle_occlusion<Occlusion>)
-            for (surface& s : surfaces_) {
+            for (drawn_object& s : objects_) {
                 // A mesh much finer than the picture has more triangles than points to test.
                 if (s.placed.shape.triangles.size() > 2 * out_.image.size()) continue;
                 known.push_back(occlusion.decide_triangles(s.caster, view_.eye(), ex));
@@ -18578,7 +18578,7 @@ class overhead_painter {
                 .level = options_.level};
     }
 
-    /// Draws all surfaces: light where it is decided, and the visibility buffer.
+    /// Draws all objects: light where it is decided, and the visibility buffer.
     void draw_all(executor_ref ex) {
         const overhead& rig = view_.rig();
         image<float> depth(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
@@ -18594,27 +18594,27 @@ class overhead_painter {
             into.ids = &ids_;
         }
         if constexpr (labelled) into.types = &out_.labels.seabed;
-        if (surfaces_.empty()) into.clear({0, 0, rig.size.x, rig.size.y});
-        for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-            const placed_mesh& placed = surfaces_[i].placed;
+        if (objects_.empty()) into.clear({0, 0, rig.size.x, rig.size.y});
+        for (std::size_t i = 0; i < objects_.size(); ++i) {
+            const placed_mesh& placed = objects_[i].placed;
             const draw_stats stats =
                 draw(placed.shape, surface_vertex_shader(view_, placed),
-                     surface_shader<Law>(view_, surfaces_[i], options_.law, into), framebuffer<void>{depth},
+                     surface_shader<Law>(view_, objects_[i], options_.law, into), framebuffer<void>{depth},
                      draw_options_of(i == 0 ? depth_load::clear : depth_load::keep), ex);
             (has_bottom() && i == 0 ? out_.stats.seabed : out_.stats.targets) += stats;
         }
     }
 
     /// Labels instances and seabed types from the visibility buffer.
-    void label_surfaces(executor_ref ex) {
-        if (surfaces_.empty()) return;
+    void label_objects(executor_ref ex) {
+        if (objects_.empty()) return;
         ex.bulk(static_cast<std::size_t>(ids_.height()), [&](std::size_t row) {
             const int y = static_cast<int>(row);
-            const surface* last = surfaces_.data();
+            const drawn_object* last = objects_.data();
             for (int x = 0; x < ids_.width(); ++x) {
                 const std::uint32_t id = ids_(x, y);
                 if (id == shadow::invalid_id) continue;
-                if (id - last->first_id >= last->placed.shape.triangles.size()) last = &surface_of(surfaces_, id);
+                if (id - last->first_id >= last->placed.shape.triangles.size()) last = &object_of(objects_, id);
                 out_.labels.instance(x, y) = last->instance;
                 if (last->types == nullptr) out_.labels.seabed(x, y) = last->seabed;
             }
@@ -18625,11 +18625,11 @@ class overhead_painter {
     bottom_materials materials_;  ///< by seabed::type
     overhead_geometry view_;
     render_options<Shadow, Labels, Law, Depth> options_;
-    image<std::uint32_t> ids_;  ///< the visibility buffer; triangles are numbered in the order of surfaces_
+    image<std::uint32_t> ids_;  ///< the visibility buffer; triangles are numbered in the order of objects_
     undecided_light undecided_;
     frame<Labels> out_;
     sampled_bottom bottom_;
-    dynamic_array<surface> surfaces_;  ///< the seabed, if there is one, and the targets, as they are drawn
+    dynamic_array<drawn_object> objects_;  ///< the seabed, if there is one, and the targets, as they are drawn
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -22684,12 +22684,12 @@ class border {
     /// Progress across the border: 0 outside of the layer, 1 where it hides the ground below.
     float across(float margin) const { return saturate(0.5f + margin * per_metre_); }
 
-    struct surface {
+    struct composite {
         float height;
         bool is_layer;
     };
     /// The upper surface at progress `t`; at 0 exactly the ground, at 1 exactly the layer.
-    surface at(float t, float below, float layer) const {
+    composite at(float t, float below, float layer) const {
         const float rise = layer - below;
         if (t <= 0) return {below, false};
         if (t >= 1) return {layer, true};
@@ -22746,7 +22746,7 @@ void lay_over(const area_sampler& where, const border& edge, const Layer& layer,
     const std::span<type> layer_types(other_types.data(), types.size());
     layer.row(line.from(above.begin), above.of(layer_heights), above.of(layer_types));
     for (std::size_t i = above.begin; i < above.end; ++i) {
-        const border::surface top = edge.at(across[i], heights[i], other[i]);
+        const border::composite top = edge.at(across[i], heights[i], other[i]);
         heights[i] = top.height;
         if (top.is_layer && !types.empty()) types[i] = other_types[i];
     }
@@ -26607,10 +26607,10 @@ inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type
 /// The recording with speckle, by its own ping numbers and legend.
 template <executor_argument E = serial_executor>
 frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex = {}) {
-    const seabed_speckle laws = with_legend(s, r.labels.legend);
+    const seabed_speckle completed = with_legend(s, r.labels.legend);
     const int port = r.rows.port_columns;
     if (port == 0) {
-        r.image = with_speckle(r.image.view(), r.labels.seabed.view(), laws, r.rows, ex);
+        r.image = with_speckle(r.image.view(), r.labels.seabed.view(), completed, r.rows, ex);
         return r;
     }
     const auto channel = [&](side looks, int left, int width) {
@@ -26621,7 +26621,7 @@ frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex
         };
         const auto mean = part(r.image);
         const auto types = part(r.labels.seabed);
-        const auto noisy = with_speckle(mean.view(), types.view(), laws, {r.rows.first, r.rows.step, looks}, ex);
+        const auto noisy = with_speckle(mean.view(), types.view(), completed, {r.rows.first, r.rows.step, looks}, ex);
         return is_port ? mirrored(noisy) : noisy;
     };
     r.image = beside(channel(side::port, 0, port), channel(side::starboard, port, r.image.width() - port));
