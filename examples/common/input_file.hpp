@@ -1,4 +1,5 @@
-// Files that a user names as input: read whole; pipes, devices and files above a limit are refused.
+// Files that a user names as input: read whole; pipes, devices and files above a limit are refused. Control characters
+// of text files.
 #pragma once
 
 #include <insonify/io/file.hpp>
@@ -12,6 +13,11 @@ namespace examples {
 
 /// Default limit of an input's size, bytes.
 inline constexpr std::uint64_t usual_input_limit = std::uint64_t{1} << 30;
+
+/// Whether a character is a control character that plain text does not hold; tabs and ends of lines are none.
+inline bool is_control(char c) {
+    return (c >= '\0' && c < ' ' && c != '\t' && c != '\r' && c != '\n') || c == '\x7F';
+}
 
 /// @param raise  how the user raises the limit, for the error's text
 /// @throws insonify::io_error, naming the file, for a pipe, device or folder, a file above the limit, or one that can't

@@ -20,8 +20,10 @@ class strict_config : public CLI::ConfigTOML {
     std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
         std::ostringstream all;
         all << input.rdbuf();
-        std::istringstream text(checked(all.str()));
-        return CLI::ConfigTOML::from_config(text);
+        const std::string text = all.str();
+        check(text);
+        std::istringstream bare(without_comments(text));
+        return CLI::ConfigTOML::from_config(bare);
     }
 
   private:
@@ -29,17 +31,15 @@ class strict_config : public CLI::ConfigTOML {
         throw CLI::ConfigError("--config: line " + std::to_string(line) + ": " + reason, CLI::ExitCodes::ConfigError);
     }
 
-    /// The text without comments, which CLI11 takes for a part of the value behind a list.
-    std::string checked(const std::string& text) const {
+    /// Refuses everything but `option = value`.
+    void check(const std::string& text) const {
         std::istringstream lines(text);
-        std::string bare, line;
+        std::string line;
         bool in_array = false;
         for (std::size_t number = 1; std::getline(lines, line); ++number) {
-            for (const char c : line)
-                if ((c >= '\0' && c < ' ' && c != '\t' && c != '\r') || c == '\x7F')
-                    refuse(number, "this is not a text file; write lines like `count = 24`");
+            if (std::any_of(line.begin(), line.end(), examples::is_control))
+                refuse(number, "this is not a text file; write lines like `count = 24`");
             line = without_comment(line);
-            bare += line + "\n";
             if (in_array) {
                 in_array = !line.ends_with(']');
                 continue;
@@ -62,9 +62,15 @@ class strict_config : public CLI::ConfigTOML {
             in_array = value.starts_with('[') && !value.ends_with(']');
         }
         if (in_array) refuse(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')), "']' is missing");
-        return bare;
     }
 
+    /// The text without comments, which CLI11 takes for a part of the value behind a list.
+    static std::string without_comments(const std::string& text) {
+        std::istringstream lines(text);
+        std::string bare, line;
+        while (std::getline(lines, line)) bare += without_comment(line) + "\n";
+        return bare;
+    }
     /// The text before a '#' that is not in quotes, trimmed.
     static std::string without_comment(const std::string& line) {
         char quote = 0;

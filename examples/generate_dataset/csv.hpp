@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "../common/input_file.hpp"
+
 namespace generator {
 
 /// A cell, quoted if necessary.
@@ -66,9 +68,7 @@ class csv_reader {
         return at_ >= text_.size() || text_[at_] == ',' || text_[at_] == '\n' || text_.substr(at_, 2) == "\r\n";
     }
     void check(std::size_t column) const {
-        const char c = text_[at_];
-        if ((c >= '\0' && c < ' ' && c != '\t' && c != '\r' && c != '\n') || c == '\x7F')
-            fail(column, "holds a control character; a table is plain text");
+        if (examples::is_control(text_[at_])) fail(column, "holds a control character; a table is plain text");
     }
     std::string plain(std::size_t column) {
         const std::size_t begin = at_;

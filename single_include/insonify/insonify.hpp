@@ -1164,6 +1164,15 @@ constexpr std::int64_t floor_to_int(double value) {
     return truncated - (static_cast<double>(truncated) > value ? 1 : 0);
 }
 
+/// Rounds a length, above 0 and finite, to eight significant bits: its multiples are exact in double, so that nodes at
+/// multiples of it are the same in every row.
+inline double rounded_to_eight_bits(double length) {
+    double unit = 1;
+    while (unit * 256 <= length) unit *= 2;
+    while (unit * 128 > length) unit /= 2;
+    return static_cast<double>(floor_to_int(length / unit + 0.5)) * unit;
+}
+
 /// Natural logarithm, <= 1 ulp. log(0) = -infinity, negative and NaN give NaN.
 ///
 /// x = 2^k m with m in [sqrt(1/2), sqrt(2)); log m = 2 atanh((m - 1) / (m + 1)) as a series.
@@ -1324,8 +1333,9 @@ void validate_if_possible(const T& value) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/linear.hpp ------------------------------------------------------------------
-// Vectors and matrices: products with fixed rounding, and whether coordinates are finite. GLM's products may be compiled
-// with fused multiply-add, which would make pictures depend on compiler flags. Storage, sums and scalings are GLM's.
+// Vectors and matrices: products with fixed rounding, dominant axes, and whether coordinates are finite. GLM's products
+// may be compiled with fused multiply-add, which would make pictures depend on compiler flags. Storage, sums and
+// scalings are GLM's.
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -1354,6 +1364,13 @@ INSONIFY_INLINE T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
 template <class T>
 INSONIFY_INLINE glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
     return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
+}
+
+/// Axis of the component of largest magnitude, the first of equal ones.
+template <class T>
+INSONIFY_INLINE int dominant_axis(const glm::vec<3, T>& v) {
+    const T x = abs(v.x), y = abs(v.y), z = abs(v.z);
+    return x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
 }
 
 /// m v, as GLM stores matrices: by columns.
@@ -2430,7 +2447,8 @@ constexpr rect intersect(const rect& a, const rect& b) {
 // `pass` returns a value, which is copied for each band of rows: it may keep state between pixels. It may process up to
 // run_length adjacent pixels at once by `row(from, to, count, x, y)`, to[i] = fn(from[i], x + i, y), where `to` may be
 // `from`. Passes that need the image's origin and size implement `prepare(area)`, called before the first pixel; it may
-// throw.
+// throw. Passes that compute rows above a band before its first one say how many by `rows_above()`: their bands are at
+// least twice as high, and are walked run by run downwards rather than row by row.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -2477,6 +2495,15 @@ struct pixel_area {
 inline constexpr int run_length = 512;
 
 namespace detail::inline INSONIFY_FLAGS {
+
+/// The rows above a band that a pass computes, if any.
+template <class Pass>
+int rows_above(const Pass& pass) {
+    if constexpr (requires { pass.rows_above(); })
+        return pass.rows_above();
+    else
+        return 0;
+}
 
 template <class Fn, class Pixel>
 using pass_result = decltype(call_pixel(std::declval<Fn&>(), std::declval<const Pixel&>(), 0, 0));
@@ -3158,6 +3185,7 @@ class noise_pass {
     }
 
     void prepare(const pixel_area& area) { law_.prepare(area); }
+    int rows_above() const { return detail::rows_above(law_); }
 
   private:
     template <noise_channel Channel>
@@ -3418,6 +3446,9 @@ class correlated_draws {
     correlated_draws(noise_key noise, dynamic_array<float> x, dynamic_array<float> y)
         : noise_(noise), taps_x_(std::move(x)), taps_y_(std::move(y)) {}
 
+    /// As of a pass.
+    int rows_above() const { return 2 * (static_cast<int>(taps_y_.size()) - 1); }
+
     /// The draws of a run, in `into`.
     void row(float* into, std::uint32_t field, const noise_run& run) {
         strip& s = strip_of(field, run);
@@ -3434,7 +3465,7 @@ class correlated_draws {
     }
 
   private:
-    /// The last rows of one column of runs.
+    /// The last rows of a column of runs.
     struct strip {
         std::uint32_t field, channel;
         int x, count;
@@ -3449,12 +3480,14 @@ class correlated_draws {
         }
     };
 
-    /// Runs come in the same order in each row, so the next is usually the one behind the last.
+    /// Fields come in the same order in each run, so the next is usually the one behind the last.
     strip& strip_of(std::uint32_t field, const noise_run& run) {
         for (std::size_t i = 0; i < strips_.size(); ++i) {
             last_ = last_ + 1 < strips_.size() ? last_ + 1 : 0;
             strip& s = strips_[last_];
-            if (s.x == run.x && s.count == run.count && s.field == field && s.channel == run.channel) return s;
+            if (s.field != field || s.channel != run.channel) continue;
+            if (s.x != run.x || s.count != run.count) s.x = run.x, s.count = run.count, s.filled = false;
+            return s;
         }
         last_ = strips_.size();
         strips_.push_back({field, run.channel, run.x, run.count, 0, false,
@@ -3499,6 +3532,8 @@ class field_draws {
         correlated_.emplace(noise_, std::move(x), std::move(y));
     }
     bool is_correlated() const { return correlated_.has_value(); }
+    /// As of a pass.
+    int rows_above() const { return correlated_ ? correlated_->rows_above() : 0; }
 
     /// The draws of a run; they lie in `buffer`.
     const float* row(draw_buffer& buffer, std::uint32_t field, const noise_run& run) {
@@ -3741,10 +3776,10 @@ enum class echo_draw { exponential, gamma, by_looks, rice };
 
 /// Statistics of an intensity: the three numbers of a speckle_law, by pixel.
 struct echo_statistics {
-    const char* name;       ///< of the filter's own parameter
-    parameter looks = 1;    ///< 0.01 to 1e6; 1 unless they are drawn as gamma
-    parameter texture = 0;  ///< 0: none
-    parameter steady = 0;
+    const char* name;      ///< of the filter's own parameter
+    parameter looks = 1;   ///< 0.01 to 1e6; 1 unless they are drawn as gamma
+    parameter shape = 0;   ///< of the K-distribution's texture; 0: none
+    parameter steady = 0;  ///< power of a steady echo over that of the others
 };
 
 /// Law of a noise_pass that multiplies pixels by random intensities, or by their square roots.
@@ -3759,7 +3794,7 @@ class echo_law {
           texture_field_(texture_noise),
           statistics_(std::move(statistics)),
           of_(of) {
-        const parameter &looks = statistics_.looks, &shape = statistics_.texture, &steady = statistics_.steady;
+        const parameter &looks = statistics_.looks, &shape = statistics_.shape, &steady = statistics_.steady;
         is_constant_ = looks.is_constant() && shape.is_constant() && steady.is_constant();
         if (is_constant_ && of == echo::amplitude) last_scale_ = scale_of(looks.value(), shape.value(), steady.value());
         std::fill_n(scale_, run_length, last_scale_);
@@ -3769,7 +3804,7 @@ class echo_law {
     void row(const float* from, float* to, const noise_run& run) {
         draw_buffer buffer;
         float* const intensity = draw(buffer, run);
-        texture(intensity, run);
+        apply_texture(intensity, run);
         if (of_ == echo::amplitude) {
             if (!is_constant_) mean_amplitudes(run);
             apply_rule(echo_factor<echo::amplitude>{}, from, intensity, scale_, to, run.count);
@@ -3777,15 +3812,16 @@ class echo_law {
             apply_rule(echo_factor<echo::intensity>{}, from, intensity, scale_, to, run.count);
         }
     }
+    int rows_above() const { return fields_.rows_above(); }
     void prepare(const pixel_area& area) {
-        for (parameter* p : {&statistics_.looks, &statistics_.texture, &statistics_.steady})
+        for (parameter* p : {&statistics_.looks, &statistics_.shape, &statistics_.steady})
             p->prepare(statistics_.name, area);
     }
 
   private:
     /// Prepares fields under which the correlation of the intensities has the given length.
     void correlate(const correlation_length& length) {
-        const parameter &looks = statistics_.looks, &shape = statistics_.texture, &steady = statistics_.steady;
+        const parameter &looks = statistics_.looks, &shape = statistics_.shape, &steady = statistics_.steady;
         const float whole = looks.is_constant() ? looks.value() : 0;
         require(whole >= 1 && whole <= 64 && whole == static_cast<float>(static_cast<int>(whole)),
                 "number of looks of correlated speckle", whole, "a whole number, 1 to 64, for all pixels");
@@ -3795,8 +3831,8 @@ class echo_law {
         const double texture_index = texture_ ? 1 / static_cast<double>(shape.value()) : 0;
         const double index = (1 + texture_index) * (1 + speckle_index) - 1;  // variance / mean^2 of the intensity
         const auto intensity = [&](double field) {
-            const double texture = texture_ ? texture_->correlation(field) : 0;
-            return ((1 + texture * texture_index) * (1 + speckle(field) * speckle_index) - 1) / index;
+            const double of_texture = texture_ ? texture_->correlation(field) : 0;
+            return ((1 + of_texture * texture_index) * (1 + speckle(field) * speckle_index) - 1) / index;
         };
         const auto taps = [&](float pixels) {
             return field_taps(texture_ ? field_length(static_cast<double>(pixels), intensity)
@@ -3839,15 +3875,15 @@ class echo_law {
         }
     }
 
-    void texture(float* intensity, const noise_run& run) {
+    void apply_texture(float* intensity, const noise_run& run) {
         if (texture_) {
             draw_buffer buffer;
             const float* const normal = texture_field_.row(buffer, 0, run);
             for (int i = 0; i < run.count; ++i) intensity[i] *= (*texture_)(normal[i]);
             return;
         }
-        const bool none = statistics_.texture.is_constant() && statistics_.texture.value() == 0;
-        if (!none) gamma(intensity, statistics_.texture, texture_noise_, run);
+        const bool none = statistics_.shape.is_constant() && statistics_.shape.value() == 0;
+        if (!none) gamma(intensity, statistics_.shape, texture_noise_, run);
     }
 
     /// Multiplies by gamma-distributed numbers of mean one where their shape is not 0.
@@ -3870,15 +3906,15 @@ class echo_law {
     float scale_of(float looks, float shape, float steady) const {
         const double speckle = Draw == echo_draw::rice ? mean_of_rice(static_cast<double>(steady))
                                                        : mean_root_of_gamma(static_cast<double>(looks));
-        const double relief = shape > 0 ? mean_root_of_gamma(static_cast<double>(shape)) : 1;
-        return static_cast<float>(1 / (speckle * relief));
+        const double texture = shape > 0 ? mean_root_of_gamma(static_cast<double>(shape)) : 1;
+        return static_cast<float>(1 / (speckle * texture));
     }
 
     /// Scales of a run. Adjacent pixels mostly have equal parameters, so the last scale is kept.
     void mean_amplitudes(const noise_run& run) {
         float looks[run_length], shape[run_length], steady[run_length];
         statistics_.looks.row(looks, run.count, run.x, run.y);
-        statistics_.texture.row(shape, run.count, run.x, run.y);
+        statistics_.shape.row(shape, run.count, run.x, run.y);
         statistics_.steady.row(steady, run.count, run.x, run.y);
         for (int i = 0; i < run.count; ++i) {
             const std::array<float, 3> now{looks[i], shape[i], steady[i]};
@@ -4809,6 +4845,7 @@ class scaled_law {
         apply_rule(rule_, from, draws_.row(buffer, 0, run), scale_.row(run), to, run.count);
     }
     void prepare(const pixel_area& area) { scale_.prepare(area); }
+    int rows_above() const { return detail::rows_above(draws_); }
 
   private:
     Rule rule_;
@@ -4964,18 +5001,21 @@ void run_pass(image_view<const From> from, image_view<To> to, const Pass& pass, 
     require_range("origin.y", origin.y, -farthest, farthest, "within 2^30");
     Pass prepared = pass;
     prepare_pass(prepared, {origin.x, origin.y, from.width(), from.height()});
-    const int rows = 65536 / (std::max)(from.width(), 1) + 1;
+    // A pass that computes rows above has long bands, and keeps those rows for one column of runs at a time.
+    const int width = from.width(), above = rows_above(prepared);
+    const int rows = (std::max)(65536 / (std::max)(width, 1) + 1, 2 * above), step = above > 0 ? run_length : width;
     bulk_ranges(ex, static_cast<std::size_t>(from.height()), static_cast<std::size_t>(rows),
                 [&](std::size_t first, std::size_t last) {
                     Pass own = prepared;
-                    for (int y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
-                        const From* const source = from.row(y).data();
-                        To* const target = to.row(y).data();
-                        for (int x = 0; x < from.width(); x += run_length) {
-                            const int count = (std::min)(run_length, from.width() - x);
-                            call_row(own, source + x, target + x, count, origin.x + x, origin.y + y);
+                    for (int left = 0; left < width; left += step)
+                        for (int y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
+                            const From* const source = from.row(y).data();
+                            To* const target = to.row(y).data();
+                            for (int x = left; x < (std::min)(left + step, width); x += run_length) {
+                                const int count = (std::min)(run_length, width - x);
+                                call_row(own, source + x, target + x, count, origin.x + x, origin.y + y);
+                            }
                         }
-                    }
                 });
 }
 
@@ -5039,6 +5079,7 @@ struct fused {
             call_row(second, buffer, to, count, x, y);
         }
     }
+    int rows_above() const { return (std::max)(detail::rows_above(first), detail::rows_above(second)); }
     void prepare(const pixel_area& area) {
         prepare_pass(first, area);
         prepare_pass(second, area);
@@ -6511,15 +6552,15 @@ inline std::optional<bool> rising_diagonals(const mesh& m, const lattice_vertice
         const glm::ivec2 corner{(std::min)((std::min)(a.x, b.x), c.x), (std::min)((std::min)(a.y, b.y), c.y)};
         const glm::ivec2 ab = b - a, ac = c - a;
         if (ab.x * ac.y - ab.y * ac.x != 1) return std::nullopt;
-        // With the corners of a cell numbered x + 2 y, a triangle lacks 1 or 2 if its diagonal rises, else 0 or 3.
+        // With the corners of a cell numbered x + 2 y, a triangle lacks 1 or 2 if its diagonal is rising, else 0 or 3.
         int missing_corner = 6;
         for (const glm::ivec2& p : {a, b, c}) {
             if (p.x > corner.x + 1 || p.y > corner.y + 1) return std::nullopt;
             missing_corner -= (p.x - corner.x) + 2 * (p.y - corner.y);
         }
-        const bool rises = missing_corner == 1 || missing_corner == 2;
-        if (is_rising.value_or(rises) != rises) return std::nullopt;
-        is_rising = rises;
+        const bool is_this_rising = missing_corner == 1 || missing_corner == 2;
+        if (is_rising.value_or(is_this_rising) != is_this_rising) return std::nullopt;
+        is_rising = is_this_rising;
         const std::size_t half = 2 * v.index(corner, v.columns() - 1) + (missing_corner < 2 ? 1 : 0);
         if (found[half]) return std::nullopt;
         found[half] = true;
@@ -8689,15 +8730,6 @@ struct lattice {
     double v(double y) const { return y * frequency + offset_y; }
 };
 
-/// Rounds a length, above 0 and finite, to eight significant bits: its multiples are exact in double, so that nodes at
-/// multiples of it are the same in every row.
-inline double rounded_to_eight_bits(double length) {
-    double unit = 1;
-    while (unit * 256 <= length) unit *= 2;
-    while (unit * 128 > length) unit /= 2;
-    return static_cast<double>(numeric::floor_to_int(length / unit + 0.5)) * unit;
-}
-
 /// A coordinate on a lattice: its cell and the fraction within it.
 struct lattice_coordinate {
     std::int64_t cell;
@@ -10065,22 +10097,23 @@ class rock_sampler {
         detail::require_range("rock.sizes", r.sizes, 0, 4, "0 to 4");
         detail::require_fraction("rock.fracture", r.fracture);
         detail::require(r.steepness > 0 && r.steepness < 1e6f, "rock.steepness", r.steepness, "above 0 and below 10^6");
-        double cell = static_cast<double>(r.outcrop) / 2;
-        for (std::uint32_t k = 0; k < 3; ++k, cell /= 2)
-            outcrops_.push_back(detail::gradient_noise(cell, {r.seed, detail::stream::outcrops, k}));
-        // Blocks of half the size are 2^sizes times as many, in four times as many cells.
-        const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(r.sizes) - 2));
-        float share = 1, height = 0.8f * r.relief, largest = 1;
-        float size = r.block;
+        double outcrop_cell = static_cast<double>(r.outcrop) / 2;
+        for (std::uint32_t k = 0; k < 3; ++k, outcrop_cell /= 2)
+            outcrops_.push_back(detail::gradient_noise(outcrop_cell, {r.seed, detail::stream::outcrops, k}));
+        // Blocks of half the size are 2^exponent times as many, in four times as many cells.
+        const float widest_spacing = r.block, narrowest_spacing = r.smallest, exponent = r.sizes;
+        const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(exponent) - 2));
+        float share = 1, largest_share = 1, spacing = widest_spacing;
         detail::dynamic_array<float> shares;
-        for (; shares.empty() || size >= r.smallest; size /= 2, share *= ratio) {
+        for (; shares.empty() || spacing >= narrowest_spacing; spacing /= 2, share *= ratio) {
             shares.push_back(share);
-            largest = (std::max)(largest, share);
+            largest_share = (std::max)(largest_share, share);
         }
-        size = r.block;
-        for (std::uint32_t k = 0; k < shares.size(); ++k, size /= 2, height /= 2) {
-            blocks_.push_back({static_cast<double>(size),
-                               r.fracture * shares[k] / largest,
+        spacing = widest_spacing;
+        float height = 0.8f * r.relief;
+        for (std::uint32_t k = 0; k < shares.size(); ++k, spacing /= 2, height /= 2) {
+            blocks_.push_back({static_cast<double>(spacing),
+                               r.fracture * shares[k] / largest_share,
                                height,
                                r.steepness,
                                {r.seed, detail::stream::blocks, k}});
@@ -10313,21 +10346,21 @@ class light_frame {
 };
 
 /// Direction to a point of a disc of light, in units of the distance to its centre.
-/// @param to_light  unit vector to the centre
-/// @param travel    unit vector on the ground along which shadows grow
-/// @param beside    offset from the centre, across and up, in the same unit
-inline glm::dvec3 toward_disc(const glm::dvec3& to_light, const glm::dvec2& travel, const glm::dvec2& beside) {
+/// @param to_light     unit vector to the centre
+/// @param travel       unit vector on the ground along which shadows grow
+/// @param disc_offset  from the centre, across and up, in the same unit
+inline glm::dvec3 toward_disc(const glm::dvec3& to_light, const glm::dvec2& travel, const glm::dvec2& disc_offset) {
     const glm::dvec3 across(-travel.y, travel.x, 0), up = numeric::cross(to_light, across);
-    return to_light + beside.x * across + beside.y * up;
+    return to_light + disc_offset.x * across + disc_offset.y * up;
 }
 
 /// A point of a disc of light that faces the origin.
-/// @param beside  offset from the centre, across and up, over the centre's distance from the origin
-inline glm::dvec3 point_of_disc(const glm::dvec3& centre, const glm::dvec2& beside) {
+/// @param disc_offset  from the centre, across and up, over the centre's distance from the origin
+inline glm::dvec3 point_of_disc(const glm::dvec3& centre, const glm::dvec2& disc_offset) {
     const double distance = numeric::square_root(numeric::dot(centre, centre));
     const double level = numeric::square_root(centre.x * centre.x + centre.y * centre.y);
     const glm::dvec2 travel = level > 0 ? glm::dvec2(-centre.x / level, -centre.y / level) : glm::dvec2(1, 0);
-    return distance > 0 ? distance * toward_disc(centre / distance, travel, beside) : centre;
+    return distance > 0 ? distance * toward_disc(centre / distance, travel, disc_offset) : centre;
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -11629,7 +11662,7 @@ struct tile_grid {
 
     std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
     /// Tiles per call of the executor, which share one buffer; one in small pictures, so that every thread gets work.
-    std::size_t run() const { return count() < 64 ? 1 : 4; }
+    std::size_t grain() const { return count() < 64 ? 1 : 4; }
     /// The tile of a pixel.
     std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(y >> log2_size) * static_cast<std::size_t>(columns) +
@@ -12378,7 +12411,7 @@ class projection {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/detail/screen_polygon.hpp -------------------------------------------------
-// Clipped triangles on the pixel grid, divided into triangles or runs of pixels.
+// Clipped triangles on the pixel grid, divided into triangles or spans of pixels.
 //
 // Snapping can fold a thin polygon over itself: a vertex that lands on the wrong side of an edge flips one of the
 // triangles that the polygon is divided into, and pixels beside the polygon would be hit. The winding number then
@@ -12427,11 +12460,11 @@ class screen_polygon {
         return center_rect(low, high, high, grid);
     }
 
-    /// Calls `part(corners, pixels, is_run)` for disjoint parts of the polygon: triangles of three of its corners; or,
-    /// if it is folded, runs of covered pixels in the plane of three of its corners.
+    /// Calls `part(corners, pixels, is_span)` for disjoint parts of the polygon: triangles of three of its corners; or,
+    /// if it is folded, spans of covered pixels in the plane of three of its corners.
     template <class Part>
     void for_each_part(const pixel_grid& grid, const Part& part) const {
-        if (turns_[0] && turns_[2]) return for_each_run(grid, part);
+        if (turns_[0] && turns_[2]) return for_each_span(grid, part);
         for (int i = 1; i + 1 < count_; ++i) {
             const rect pixels = center_rect(at(0), at(i), at(i + 1), grid);
             if (!pixels.empty() && wide_area(at(0), at(i), at(i + 1)).sign() != 0)
@@ -12441,7 +12474,7 @@ class screen_polygon {
 
   private:
     template <class Part>
-    void for_each_run(const pixel_grid& grid, const Part& part) const {
+    void for_each_span(const pixel_grid& grid, const Part& part) const {
         const std::array<int, 3> plane{0, largest_part_, largest_part_ + 1};
         const rect all = pixels(grid);
         for (int y = all.y0; y < all.y1; ++y) {
@@ -13139,7 +13172,7 @@ struct wide_triangle {
     std::array<screen_vertex, 3> corners;
     std::array<glm::dvec3, 3> weights;  ///< barycentric, of each corner in the mesh's triangle
     std::uint32_t triangle;
-    rect run;  ///< if not empty, exactly the pixels that it covers
+    rect span;  ///< of a folded polygon: exactly the pixels that it covers, in one row; else empty
 };
 
 /// A triangle as looked up by its id: its corners in clockwise order on the screen.
@@ -13149,7 +13182,7 @@ struct screen_triangle {
     std::uint32_t triangle;     ///< index into the mesh
     const wide_triangle* wide;  ///< null for a compact one
 
-    bool is_run() const { return wide != nullptr && !wide->run.empty(); }
+    bool is_span() const { return wide != nullptr && !wide->span.empty(); }
 
     /// Perspective-correct barycentric weights of the mesh triangle's vertices at a pixel's centre.
     glm::dvec3 weights_at(int x, int y, const pixel_grid& grid) const {
@@ -13157,7 +13190,7 @@ struct screen_triangle {
             const std::int64_t run = to.x - from.x, rise = to.y - from.y;
             const std::int64_t right = grid.center(x) - from.x, down = grid.center(y) - from.y;
             if (wide == nullptr) return static_cast<double>(compact_side(run, rise, right, down));
-            // Pixels of a run may lie just outside of the corners, where a weight would be negative.
+            // Pixels of a span may lie just outside of the corners, where a weight would be negative.
             const double weight = double_double::from(wide_side(run, rise, right, down)).high;
             return weight > 0 ? weight : 0.0;
         };
@@ -13345,14 +13378,14 @@ class screen_mesh {
         if (on_screen.area_sign() == 0) return outcome::degenerate;
         if (is_culled(on_screen.area_sign() < 0)) return outcome::culled;
         outcome result = outcome::missed;
-        on_screen.for_each_part(grid_, [&](std::array<int, 3> corners, const rect& pixels, bool is_run) {
+        on_screen.for_each_part(grid_, [&](std::array<int, 3> corners, const rect& pixels, bool is_span) {
             wide_triangle part{};
             for (std::size_t k = 0; k < 3; ++k) {
                 part.corners[k] = on_screen.at(corners[k]);
                 part.weights[k] = polygon.corners[static_cast<std::size_t>(corners[k])].weights;
             }
             part.triangle = triangle;
-            if (is_run) part.run = pixels;
+            if (is_span) part.span = pixels;
             out.runs.add(compact_count_ + static_cast<std::uint32_t>(out.wide.size()), 1, tiles.touched(pixels), false);
             out.wide.push_back(part);
             result = outcome::drawn;
@@ -14124,12 +14157,12 @@ struct tile_triangles {
     INSONIFY_RARE triangle_setup setup(std::uint32_t id) const {
         const screen_triangle t = screen[id];
         triangle_setup s = triangle_setup::of(t.a, t.b, t.c, grid(), pixels_of(t), tile_buffer<false>::slack);
-        if (t.is_run()) s.cover_all();
+        if (t.is_span()) s.cover_all();
         return s;
     }
     /// The pixels of the tile that a triangle may cover.
     rect pixels_of(const screen_triangle& t) const {
-        return intersect(pixels, t.is_run() ? t.wide->run : center_rect(t.a, t.b, t.c, grid()));
+        return intersect(pixels, t.is_span() ? t.wide->span : center_rect(t.a, t.b, t.c, grid()));
     }
     INSONIFY_RARE float rounded_depth(std::uint32_t id, int x, int y) const {
         const screen_triangle t = screen[id];
@@ -14398,9 +14431,9 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& shader, image_view
     const screen_mesh<real> screen(m, shader, grid, tiles, options, HasIds, records, ex);
     const float sign = options.keep == keep_depth::smaller ? 1.0f : -1.0f;
 
-    const std::size_t run = tiles.run();
-    dynamic_array<std::uint64_t> shaded((tiles.count() + run - 1) / run, 0);
-    bulk_ranges(ex, tiles.count(), run, [&](std::size_t first, std::size_t last) {
+    const std::size_t grain = tiles.grain();
+    dynamic_array<std::uint64_t> shaded((tiles.count() + grain - 1) / grain, 0);
+    bulk_ranges(ex, tiles.count(), grain, [&](std::size_t first, std::size_t last) {
         tile_buffer<HasIds> buffer(options.tile);
         for (std::size_t tile = first; tile < last; ++tile) {
             const tile_triangles<real> triangles{screen, screen.bin(tile), tiles.pixels(tile, grid.width, grid.height),
@@ -14409,7 +14442,7 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& shader, image_view
             if (triangles.bin.empty() && keep) continue;
             dispatch(tile_kernel<tile_triangles<real>, HasIds, real>{triangles, buffer, depth, sign, keep},
                      options.level);
-            shaded[first / run] += finish(triangles, buffer, sign);
+            shaded[first / grain] += finish(triangles, buffer, sign);
         }
     });
     draw_stats stats = screen.stats();
@@ -14520,90 +14553,6 @@ draw_stats draw(const mesh_view&, const VertexShader&, const Shader&, const fram
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/shadow/detail/blocking.hpp -------------------------------------------------------
-// Whether a triangle blocks the light of a point, decided in doubles: the reference that every faster test reproduces.
-//
-// A triangle blocks a point's ray towards the light if the ray crosses it, edges included, and the point lies behind
-// its plane by more than the rounding error, 2^-40 of the scene's size. There is no bias. Vertices are sheared so that
-// the ray becomes an axis; the signs of three 2 x 2 determinants then say on which side it passes each edge. Two
-// triangles that share an edge compute the same determinant with opposite signs, and zero counts as inside for both: no
-// light leaks through the edge.
-//
-// Based on: Sven Woop, Carsten Benthin, Ingo Wald. Watertight Ray/Triangle Intersection. JCGT 2, 2013.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace shadow::detail::inline INSONIFY_FLAGS {
-
-/// A light's rays: parallel, or to a point.
-class light_rays {
-  public:
-    /// @param reach  no coordinate of a point that is tested is larger, metres
-    /// @throws invalid_input for a position that is not finite, and as light_frame does
-    light_rays(const any_light& light, double reach) : reach_(reach), light_reach_(reach) {
-        if (const auto* parallel = std::get_if<directional_light>(&light)) {
-            source_ = light_frame(*parallel).to_light();
-        } else {
-            source_ = std::get<point_light>(light).position;
-            is_near_ = true;
-            for (int i = 0; i < 3; ++i) {
-                insonify::detail::require(numeric::is_finite(source_[i]), "point_light.position", source_[i],
-                                          "finite coordinates");
-                light_reach_ = (std::max)(light_reach_, numeric::abs(source_[i]));
-            }
-        }
-    }
-
-    /// From a point to the light: unit length if it is parallel, the whole way if it is near.
-    glm::dvec3 toward(const glm::dvec3& p) const { return is_near_ ? source_ - p : source_; }
-
-    /// Whether the triangle (a, b, c) blocks the light of `from`.
-    bool are_blocked(const glm::dvec3& corner_a, const glm::dvec3& corner_b, const glm::dvec3& corner_c,
-                     const glm::dvec3& from) const {
-        const glm::dvec3 to_light = toward(from), a = corner_a - from, b = corner_b - from, c = corner_c - from;
-        // Corners sheared along the ray, in the two axes of its smaller components. A corner that triangles share is
-        // rounded alike for each.
-        const glm::dvec3 way{numeric::abs(to_light.x), numeric::abs(to_light.y), numeric::abs(to_light.z)};
-        const int axis = way.x >= way.y ? (way.x >= way.z ? 0 : 2) : (way.y >= way.z ? 1 : 2);
-        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        const double shear_u = to_light[u] / to_light[axis], shear_v = to_light[v] / to_light[axis];
-        const auto across = [&](const glm::dvec3& p) {
-            return glm::dvec2(p[u] - shear_u * p[axis], p[v] - shear_v * p[axis]);
-        };
-        const glm::dvec2 a2 = across(a), b2 = across(b), c2 = across(c);
-        const double direction = to_light[axis] < 0 ? -1 : 1;
-        const double bc = direction * (b2.x * c2.y - b2.y * c2.x);
-        const double ca = direction * (c2.x * a2.y - c2.y * a2.x);
-        const double ab = direction * (a2.x * b2.y - a2.y * b2.x);
-        const bool is_left = bc >= 0 && ca >= 0 && ab >= 0, is_right = bc <= 0 && ca <= 0 && ab <= 0;
-        if (!is_left && !is_right) return false;
-        const glm::dvec3 normal = numeric::cross(b - a, c - a);
-        // Measured from the nearest corner: the rounding error of a distant one may exceed the point's distance.
-        const auto size = [](const glm::dvec3& d) { return numeric::abs(d.x) + numeric::abs(d.y) + numeric::abs(d.z); };
-        const glm::dvec3& some = size(a) <= size(b) ? a : b;
-        const double along = numeric::dot(normal, to_light),
-                     behind = numeric::dot(normal, size(some) <= size(c) ? some : c);
-        const double sign = is_left ? 1 : -1;
-        const double tolerance = 0x1p-40 * size(normal);
-        if (!(sign * along > 0 && sign * behind > reach_ * tolerance)) return false;
-        // What the light itself touches does not block it.
-        return !is_near_ || sign * (along - behind) > light_reach_ * tolerance;
-    }
-
-  private:
-    glm::dvec3 source_;           ///< direction, or position
-    double reach_, light_reach_;  ///< of points, and with the light
-    bool is_near_ = false;
-};
-
-}  // namespace shadow::detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/shadow/detail/lit_grid.hpp -------------------------------------------------------
 // A regular grid re-indexed so that parallel light crosses its columns in ascending order, and its heights along the
 // light's rays.
@@ -14699,7 +14648,7 @@ struct grid_heights {
           u(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(pitch), insonify::detail::memory_of(ex)),
           least(bounds.lower.z),
           greatest(bounds.upper.z) {
-        // In square blocks, so that both reads and writes are contiguous.
+        // In squares of vertices, so that both reads and writes are contiguous.
         constexpr int square = 64;
         const auto drop = static_cast<float>(grid.drop);
         bulk_ranges(ex, static_cast<std::size_t>(grid.columns), square, [&](std::size_t from, std::size_t to) {
@@ -14760,7 +14709,7 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 /// Bounds of the largest u that rays of a strip meet before a column.
 struct horizon_bound {
     float dark_below;  ///< every ray of the strip meets a u of at least this
-    float lit_above;   ///< points of the column with a larger u are lit; infinity where u does not rise
+    float lit_above;   ///< points of the column with a larger u are lit; infinity where u does not increase
 };
 
 /// Computes the bounds of adjacent strips, column by column: neighbours read mostly the same heights.
@@ -14779,7 +14728,7 @@ struct horizon_kernel {
         bounds_so_far now;
         const auto slope = static_cast<float>(grid.slope);
         float copies[2][static_cast<unsigned>(room)];
-        std::int32_t rises[static_cast<unsigned>(room)];
+        std::int32_t is_facing[static_cast<unsigned>(room)];
         for (int x = 0; x < grid.columns; ++x) {
             // The strips' first row where they cross the column: `row` to `row + 3` surround the first strip up to the
             // next column.
@@ -14792,8 +14741,8 @@ struct horizon_kernel {
             }
             const float* const here = heights_from(x, row, copies[0]);
             const float* const ahead = heights_from(x + 1, row, copies[1]);
-            for (int k = 0; k < count + 2; k += N) find_rises<N>(rises + k, here + k, ahead + k, slope);
-            for (int k = 0; k < count; k += N) advance<N>(now, k, here + k, ahead + k, rises + k, of_column + k);
+            for (int k = 0; k < count + 2; k += N) find_facing<N>(is_facing + k, here + k, ahead + k, slope);
+            for (int k = 0; k < count; k += N) advance<N>(now, k, here + k, ahead + k, is_facing + k, of_column + k);
         }
     }
 
@@ -14820,9 +14769,9 @@ struct horizon_kernel {
         return copy;
     }
 
-    /// Masks of the cells between two columns along which u increases, or where there is no cell.
+    /// Masks of the cells between two columns that face the light, along which u increases, or where there is no cell.
     template <int N>
-    INSONIFY_INLINE void find_rises(std::int32_t* into, const float* here, const float* ahead, float slope) const {
+    INSONIFY_INLINE void find_facing(std::int32_t* into, const float* here, const float* ahead, float slope) const {
         using namespace insonify::detail;
         using ints = lanes<std::int32_t, N>;
         lanes<float, N> a, b, c, d, lower, upper;  // (0,0) (1,0) (0,1) (1,1)
@@ -14845,14 +14794,14 @@ struct horizon_kernel {
     /// @param of_column  where their bounds go
     template <int N>
     INSONIFY_INLINE void advance(bounds_so_far& now, int k, const float* here, const float* ahead,
-                                 const std::int32_t* rises_of, float* of_column) const {
+                                 const std::int32_t* facing_of, float* of_column) const {
         using namespace insonify::detail;
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
         floats dark_below, lit_above, lowest, highest, next;
-        ints rises;
+        ints is_facing;
         load(dark_below, now.dark_below + k), load(lit_above, now.lit_above + k);
-        load(lowest, here), load(rises, rises_of);
+        load(lowest, here), load(is_facing, facing_of);
         highest = lowest;
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             floats other;
@@ -14862,8 +14811,8 @@ struct horizon_kernel {
         });
         unroll<2>([&](int i) INSONIFY_INLINE_LAMBDA {
             ints other;
-            load(other, rises_of + i + 1);
-            rises = rises & other;
+            load(other, facing_of + i + 1);
+            is_facing = is_facing & other;
         });
         // Every ray of the strip meets the column between rows `row` and `row + 2`.
         dark_below = lowest > dark_below ? lowest : dark_below;
@@ -14874,8 +14823,8 @@ struct horizon_kernel {
             load(other, ahead + i);
             next = other > next ? other : next;
         });
-        lit_above = rises ? lit_above : floats(next > lit_above ? next : lit_above);
-        const floats stored = rises ? lit_above : floats{} + std::numeric_limits<float>::infinity();
+        lit_above = is_facing ? lit_above : floats(next > lit_above ? next : lit_above);
+        const floats stored = is_facing ? lit_above : floats{} + std::numeric_limits<float>::infinity();
         store(of_column, dark_below);
         store(of_column + strips, stored);
         store(now.dark_below + k, dark_below), store(now.lit_above + k, lit_above);
@@ -14893,7 +14842,7 @@ class horizon_bounds {
                    isa level, E& ex)
         : grid_(lattice, travel),
           heights_(m, box, grid_, ex),
-          beside_(2 * lattice.off + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
+          lattice_error_(2 * lattice.off + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
         const double greatest = heights_.greatest, least = heights_.least;
         const double relief = grid_.drop * (greatest - least);
         const double size = grid_.columns + grid_.drop * (std::max)(numeric::abs(greatest), numeric::abs(least));
@@ -14924,11 +14873,11 @@ class horizon_bounds {
         const reals x = grid_.x_of.x * dx + grid_.x_of.y * dy;
         const reals strip = grid_.y_of.x * dx + grid_.y_of.y * dy - grid_.slope * x - static_cast<double>(first_strip_);
         const bits exists = bits(x >= 0.0) & bits(x <= static_cast<double>(grid_.columns - 1)) &
-                            bits(strip >= beside_) & bits(strip < strips_ - beside_);
+                            bits(strip >= lattice_error_) & bits(strip < strips_ - lattice_error_);
         const reals u = x + grid_.drop * p[2];
         // A point close to a line of the lattice may lie in a cell beyond it.
-        const reals column = exists ? x : reals{}, ahead = exists ? x + beside_ : reals{};
-        const reals low = exists ? strip - beside_ : reals{}, high = exists ? strip + beside_ : reals{};
+        const reals column = exists ? x : reals{}, ahead = exists ? x + lattice_error_ : reals{};
+        const reals low = exists ? strip - lattice_error_ : reals{}, high = exists ? strip + lattice_error_ : reals{};
         const auto bound_at = [&](const reals& at, int k) {
             return bound(static_cast<int>(lane(at, k)), static_cast<int>(lane(low, k)),
                          static_cast<int>(lane(high, k)));
@@ -14952,8 +14901,8 @@ class horizon_bounds {
     const grid_heights& heights() const { return heights_; }
     /// Error bound of u, in columns.
     double margin() const { return margin_; }
-    /// Bound of a vertex's distance from its lattice point, along the light or across, in steps, with a margin.
-    double beside() const { return beside_; }
+    /// Bound of the distance of vertices from their lattice points, along the light or across, in steps, with a margin.
+    double lattice_error() const { return lattice_error_; }
     bool has_strip(int strip) const { return strip >= 0 && strip < strips_; }
     /// Strip number `strip` of a column holds the points with floor(Y - slope X) = strip + first_strip().
     int first_strip() const { return first_strip_; }
@@ -14971,7 +14920,7 @@ class horizon_bounds {
   private:
     lit_grid grid_;
     grid_heights heights_;
-    double beside_, margin_ = 0;
+    double lattice_error_, margin_ = 0;
     int first_strip_ = 0, strips_ = 0;
     insonify::detail::uninitialized_array<float> bounds_;
 };
@@ -14986,7 +14935,7 @@ INSONIFY_ARITHMETIC_END
 // The planes onto which casters and points are projected along a light's rays.
 //
 // Parallel light has one plane, the datum in the light's sheared frame (light.hpp). Light from a point has six, the
-// sides of a cube around it, each seen in perspective. On a plane every ray is one point (u, v), triangles stay
+// faces of a cube around it, each seen in perspective. On a plane every ray is one point (u, v), triangles stay
 // triangles, and of two points of a ray the one with the larger height is nearer to the light.
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -15003,11 +14952,11 @@ class light_plane {
         : rows_{{frame.travel().x, frame.travel().y, frame.cot_elevation()},
                 {-frame.travel().y, frame.travel().x, 0},
                 {0, 0, 1}} {}
-    /// @param side  0 to 5: along +x, -x, +y, -y, +z, -z of the light
-    light_plane(const point_light& light, int side) : origin_(light.position), is_near_(true) {
-        const int axis = side / 2;
+    /// @param face  0 to 5: along +x, -x, +y, -y, +z, -z of the light
+    light_plane(const point_light& light, int face) : origin_(light.position), is_near_(true) {
+        const int axis = face / 2;
         rows_[0][(axis + 1) % 3] = rows_[1][(axis + 2) % 3] = 1;
-        rows_[2][axis] = side % 2 == 0 ? 1 : -1;
+        rows_[2][axis] = face % 2 == 0 ? 1 : -1;
     }
 
     bool is_near() const { return is_near_; }
@@ -15025,11 +14974,10 @@ class light_plane {
         return {before.x / before.z, before.y / before.z, 1 / before.z};
     }
 
-    /// Number of the plane of a point light over which a point lies.
-    static int side_of(const point_light& light, const glm::dvec3& p) {
+    /// Number of the cube's face, seen from a point light, that a point lies over.
+    static int face_of(const point_light& light, const glm::dvec3& p) {
         const glm::dvec3 d = p - light.position;
-        const glm::dvec3 size{numeric::abs(d.x), numeric::abs(d.y), numeric::abs(d.z)};
-        const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+        const int axis = numeric::dominant_axis(d);
         return 2 * axis + (d[axis] < 0 ? 1 : 0);
     }
 
@@ -15162,36 +15110,36 @@ class horizon_triangles {
                 decision* into) const {
         // These columns and, in each, these rows hold all points of such rays within the relief.
         const double least = horizon_.heights().least, greatest = horizon_.heights().greatest;
-        const double beside = 0x1p-8 + horizon_.margin();  // covers rounding
+        const double tolerance = 0x1p-8 + horizon_.margin();  // covers rounding
         const auto clamped = [](double at, int first, int last) {
             return static_cast<int>((std::min)((std::max)(at, static_cast<double>(first)), static_cast<double>(last)));
         };
-        const int left = clamped(lower.x - grid_.drop * greatest - beside - 1, first_column, last_column),
-                  right = clamped(upper.x - grid_.drop * least + beside + 1, first_column, last_column);
+        const int left = clamped(lower.x - grid_.drop * greatest - tolerance - 1, first_column, last_column),
+                  right = clamped(upper.x - grid_.drop * least + tolerance + 1, first_column, last_column);
         for (int x = left; x < right; ++x) {
-            const int bottom = clamped(lower.y - grid_.slope * (upper.x - x) - beside - 2, 0, grid_.rows - 1),
-                      top = clamped(upper.y - grid_.slope * (lower.x - x - 1) + beside + 2, 0, grid_.rows - 1);
+            const int bottom = clamped(lower.y - grid_.slope * (upper.x - x) - tolerance - 2, 0, grid_.rows - 1),
+                      top = clamped(upper.y - grid_.slope * (lower.x - x - 1) + tolerance + 2, 0, grid_.rows - 1);
             const float *const here = horizon_.heights().column(x), *const ahead = horizon_.heights().column(x + 1);
             for (int y = bottom; y < top; ++y) {
                 const auto low = static_cast<double>((std::min)({here[y], here[y + 1], ahead[y], ahead[y + 1]})),
                            high = static_cast<double>((std::max)({here[y], here[y + 1], ahead[y], ahead[y + 1]}));
-                if (high < lower.x - beside || low > upper.x + beside) continue;
+                if (high < lower.x - tolerance || low > upper.x + tolerance) continue;
                 into[grid_.first_triangle(x, y)] = into[grid_.first_triangle(x, y) + 1] = decision::undecided;
             }
         }
     }
 
   private:
-    /// Cells of a block, whose results stay in the cache. Along a column, what is read is contiguous; from one to the
-    /// next it is in another page, which no hardware prefetches.
+    /// Size in cells of the parts whose results stay in the cache. Along a column, what is read is contiguous; from one
+    /// to the next it is in another page, which no hardware prefetches.
     static constexpr int wide = 32, tall = 256;
 
-    /// Results for the cells of a block.
+    /// Results for the cells of a part.
     struct answers {
         std::int32_t of[wide][tall];  ///< by column, then row: of the first triangle, and of the second << 8
     };
 
-    /// The results of a block in the order of the mesh.
+    /// The results of a part in the order of the mesh.
     void write(const answers& found, int left, int bottom, int right, int top, decision* into) const {
         for (int y = bottom; y < top; ++y)
             for (int x = left; x < right; ++x) {
@@ -15230,11 +15178,11 @@ class horizon_triangles {
             load(b, horizon.heights().column(x + 1) + y);
             load(d, horizon.heights().column(x + 1) + y + 1);
             // The strips that the cells lie in.
-            constexpr double beside = 0x1p-8;
+            constexpr double tolerance = 0x1p-8;
             const double from = y - horizon.first_strip() - grid.slope * x;
             floats dark_below = floats{} + std::numeric_limits<float>::infinity(), lit_above = 0.0f - dark_below;
-            const int last = static_cast<int>(from + 1 + beside);
-            for (int strip = static_cast<int>(from - grid.slope - beside); strip <= last; ++strip) {
+            const int last = static_cast<int>(from + 1 + tolerance);
+            for (int strip = static_cast<int>(from - grid.slope - tolerance); strip <= last; ++strip) {
                 floats least, most;
                 load(least, horizon.dark_below(x) + strip);
                 load(most, horizon.lit_above(x) + strip);
@@ -15313,8 +15261,8 @@ INSONIFY_ARITHMETIC_END
 //
 // In grid steps a ray is a straight line across cells. The surface's u (horizon_bounds.hpp) is piecewise linear along
 // it, with vertices at the edges that the line crosses, and the ray is blocked if u exceeds the point's u. The walk
-// skips blocks of cells whose largest u is below it, and ends where the bounds of the horizon decide. Where u is within
-// its error of the point's, the triangles of that column are tested in doubles.
+// skips macrocells (4 x 4 cells) whose largest u is below it, and ends where the bounds of the horizon decide.
+// Where u is within its error of the point's, the triangles of that column are tested in doubles.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -15324,13 +15272,13 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 
 using insonify::detail::dynamic_array;
 
-/// The largest u of square blocks of cells.
-class block_heights {
+/// The largest u of macrocells: `side` x `side` cells each.
+class macrocell_heights {
   public:
     static constexpr int side = 4;  ///< cells
 
     template <executor E>
-    block_heights(const lit_grid& grid, const grid_heights& heights, isa level, E& ex)
+    macrocell_heights(const lit_grid& grid, const grid_heights& heights, isa level, E& ex)
         : columns_((grid.columns - 2) / side + 1), rows_((grid.rows - 2) / side + 1) {
         highest_ = insonify::detail::uninitialized_array<float>(
             static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), insonify::detail::memory_of(ex));
@@ -15343,24 +15291,24 @@ class block_heights {
         });
     }
 
-    /// The largest u of the vertices of the cells in a column of blocks, between two rows of cells.
+    /// The largest u of the vertices of the cells in a column of macrocells, between two rows of cells.
     float highest(int column, int first_row, int last_row) const {
-        const float* const blocks = highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_;
+        const float* const macrocells = highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_;
         const int first = (std::max)(first_row / side, 0), last = (std::min)(last_row / side, rows_ - 1);
         float highest = grid_heights::nothing;
-        for (int block = first; block <= last; ++block) highest = (std::max)(highest, blocks[block]);
+        for (int i = first; i <= last; ++i) highest = (std::max)(highest, macrocells[i]);
         return highest;
     }
 
   private:
-    /// One column of blocks.
+    /// One column of macrocells.
     struct kernel {
         const lit_grid& grid;
         const grid_heights& heights;
         int first;   ///< column of vertices
         float* row;  ///< room for the largest u of each row
         float* into;
-        int blocks;
+        int macrocells;
 
         template <int N>
         INSONIFY_INLINE void run() const {
@@ -15368,11 +15316,11 @@ class block_heights {
             int y = 0;
             for (; y + N <= grid.rows; y += N) highest_of<N>(y, last);
             for (; y < grid.rows; ++y) highest_of<1>(y, last);
-            for (int block = 0; block < blocks; ++block) {
-                const int low = block * side, high = (std::min)(low + side, grid.rows - 1);
+            for (int macrocell = 0; macrocell < macrocells; ++macrocell) {
+                const int low = macrocell * side, high = (std::min)(low + side, grid.rows - 1);
                 float highest = row[low];
                 for (int i = low + 1; i <= high; ++i) highest = (std::max)(highest, row[i]);
-                into[block] = highest;
+                into[macrocell] = highest;
             }
         }
         template <int N>
@@ -15396,14 +15344,14 @@ class block_heights {
 class horizon_walk {
   public:
     /// @param p  origin of the ray, in the mesh's frame
-    horizon_walk(const horizon_bounds& horizon, const block_heights& blocks, const glm::dvec3& p)
+    horizon_walk(const horizon_bounds& horizon, const macrocell_heights& macrocells, const glm::dvec3& p)
         : horizon_(horizon),
-          blocks_(blocks),
+          macrocells_(macrocells),
           grid_(horizon.grid()),
           x_(grid_.steps(glm::dvec2(p)).x),
           w_(grid_.steps(glm::dvec2(p)).y - grid_.slope * x_),
           u_(x_ + grid_.drop * p.z),
-          beside_(horizon.beside()) {}
+          lattice_error_(horizon.lattice_error()) {}
 
     /// Whether the surface blocks the ray of a point on it, where it faces the light.
     /// @param decide  decide(triangle): test of a triangle in doubles; false for the triangle of the point
@@ -15434,10 +15382,11 @@ class horizon_walk {
     /// Whether the point is above the surface by more than the error of u.
     bool lies_above() const {
         const double y = row_at(x_);
-        if (!(x_ >= beside_ && x_ <= grid_.columns - 1 - beside_ && y >= beside_ && y <= grid_.rows - 1 - beside_))
+        if (!(x_ >= lattice_error_ && x_ <= grid_.columns - 1 - lattice_error_ && y >= lattice_error_ &&
+              y <= grid_.rows - 1 - lattice_error_))
             return false;
-        for (const double x : {x_ - beside_, x_ + beside_})
-            for (int row = clamped_row(y - beside_); row <= clamped_row(y + beside_); ++row)
+        for (const double x : {x_ - lattice_error_, x_ + lattice_error_})
+            for (int row = clamped_row(y - lattice_error_); row <= clamped_row(y + lattice_error_); ++row)
                 if (!(highest((std::min)(static_cast<int>(x), grid_.columns - 2), row, row) < u_ - horizon_.margin()))
                     return false;
         return true;
@@ -15456,36 +15405,37 @@ class horizon_walk {
     bool walk(bool is_above, const Decide& decide) const {
         const double u_lower_bound = u_ - horizon_.margin();
         const auto greatest = static_cast<double>(horizon_.heights().greatest);
-        if (!(x_ + beside_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
-        int column = static_cast<int>((std::min)(x_ + beside_, static_cast<double>(grid_.columns - 2)));
+        if (!(x_ + lattice_error_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
+        int column = static_cast<int>((std::min)(x_ + lattice_error_, static_cast<double>(grid_.columns - 2)));
         for (bool is_first = true; column >= 0; --column, is_first = false) {
             // Rows of cells that the ray crosses in this column.
             const double low = row_at(column), high = low + grid_.slope;
-            if (high < -beside_ || column + 1 + grid_.drop * greatest < u_lower_bound) return false;
+            if (high < -lattice_error_ || column + 1 + grid_.drop * greatest < u_lower_bound) return false;
             if (!is_first && is_above) {
                 const decision rest = decide_before(column);
                 if (rest != decision::undecided) return rest == decision::dark;
             }
-            if (!is_first && column % block_heights::side == block_heights::side - 1) {
-                const int before = column - (block_heights::side - 1);
-                const float highest_before = blocks_.highest(
-                    before / block_heights::side, clamped_row(row_at(before) - beside_), clamped_row(high + beside_));
+            if (!is_first && column % macrocell_heights::side == macrocell_heights::side - 1) {
+                const int before = column - (macrocell_heights::side - 1);
+                const float highest_before =
+                    macrocells_.highest(before / macrocell_heights::side, clamped_row(row_at(before) - lattice_error_),
+                                        clamped_row(high + lattice_error_));
                 if (static_cast<double>(highest_before) < u_lower_bound) {
                     column = before;
                     continue;
                 }
             }
-            if (low > grid_.rows - 1 + beside_) continue;
-            const int first_row = clamped_row(low - beside_), last_row = clamped_row(high + beside_);
+            if (low > grid_.rows - 1 + lattice_error_) continue;
+            const int first_row = clamped_row(low - lattice_error_), last_row = clamped_row(high + lattice_error_);
             if (highest(column, first_row, last_row) < u_lower_bound) continue;
             const double limit = is_above ? x_ - column : 2;
-            if (low >= beside_ && high <= grid_.rows - 1 - beside_) {
+            if (low >= lattice_error_ && high <= grid_.rows - 1 - lattice_error_) {
                 const crossing crossed = cross(column, limit);
                 if (crossed.highest < u_lower_bound) continue;
                 if (is_above && crossed.certain > u_ + horizon_.margin()) return true;
                 if (!is_above && crossed.lowest > u_ + horizon_.margin()) continue;
             } else {
-                // Close to the border, whose vertices may lie beside the lattice, the ray may leave the grid and enter
+                // Close to the border, whose vertices may lie off the lattice, the ray may leave the grid and enter
                 // it again below the surface.
                 is_above = false;
             }
@@ -15499,8 +15449,8 @@ class horizon_walk {
 
     /// Decides by the bounds of a column, once the ray has been followed down to it.
     decision decide_before(int column) const {
-        const int strip = static_cast<int>(w_ - beside_ - horizon_.first_strip()),
-                  next = static_cast<int>(w_ + beside_ - horizon_.first_strip());
+        const int strip = static_cast<int>(w_ - lattice_error_ - horizon_.first_strip()),
+                  next = static_cast<int>(w_ + lattice_error_ - horizon_.first_strip());
         if (!horizon_.has_strip(strip) || !horizon_.has_strip(next)) return decision::undecided;
         const horizon_bound b = horizon_.bound(column, strip, next);
         if (u_ < static_cast<double>(b.dark_below) - horizon_.margin()) return decision::dark;
@@ -15520,11 +15470,11 @@ class horizon_walk {
         crossing found;
         // An edge is crossed a share s of the column from its beginning, a share t along it.
         const auto add = [&](double s, double first, double last, double t) {
-            if (s > limit + beside_) return;
+            if (s > limit + lattice_error_) return;
             const double u = first + t * (last - first);
             found.lowest = (std::min)(found.lowest, u);
             found.highest = (std::max)(found.highest, u);
-            if (s <= limit - beside_) found.certain = (std::max)(found.certain, u);
+            if (s <= limit - lattice_error_) found.certain = (std::max)(found.certain, u);
         };
         const double start = low - row, end = start + slope, up = (1 - start) / slope;
         const bool stays = end <= 1;
@@ -15546,10 +15496,10 @@ class horizon_walk {
     }
 
     const horizon_bounds& horizon_;
-    const block_heights& blocks_;
+    const macrocell_heights& macrocells_;
     const lit_grid& grid_;
     double x_, w_, u_;
-    double beside_;
+    double lattice_error_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
@@ -15576,7 +15526,7 @@ class grid_caster {
           to_mesh_(inverse(c.placement)),
           travel_(transform_direction(to_mesh_, -frame.to_light())),
           bounds_(mesh_, c.box, *c.grid, travel_, level, ex),
-          blocks_(bounds_.grid(), bounds_.heights(), level, ex) {}
+          macrocells_(bounds_.grid(), bounds_.heights(), level, ex) {}
 
     /// Decides points [first, last), which lie on this caster and face the light, where the horizon's bounds suffice.
     /// @param into  results, from that of point `first` on
@@ -15591,12 +15541,12 @@ class grid_caster {
         const glm::dvec3 at = transform_point(to_mesh_, p);
         const decision answer = bounds_.at(at);
         if (answer != decision::undecided) return answer == decision::dark;
-        return horizon_walk(bounds_, blocks_, at).is_blocked_from_surface(decide);
+        return horizon_walk(bounds_, macrocells_, at).is_blocked_from_surface(decide);
     }
     /// The same for any point.
     template <class Decide>
     bool blocks(const glm::dvec3& p, const Decide& decide) const {
-        return horizon_walk(bounds_, blocks_, transform_point(to_mesh_, p)).is_blocked_from_anywhere(decide);
+        return horizon_walk(bounds_, macrocells_, transform_point(to_mesh_, p)).is_blocked_from_anywhere(decide);
     }
 
     /// See horizon_triangles.
@@ -15639,7 +15589,91 @@ class grid_caster {
     affine to_mesh_;
     glm::dvec3 travel_;  ///< of the light, in the mesh's frame
     horizon_bounds bounds_;
-    block_heights blocks_;
+    macrocell_heights macrocells_;
+};
+
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/detail/light_rays.hpp -----------------------------------------------------
+// Rays from points to a light, and whether a triangle blocks them, decided in doubles: the reference that every faster
+// test reproduces.
+//
+// A triangle blocks a point's ray towards the light if the ray crosses it, edges included, and the point lies behind
+// its plane by more than the rounding error, 2^-40 of the scene's size. There is no bias. Vertices are sheared so that
+// the ray becomes an axis; the signs of three 2 x 2 determinants then say on which side it passes each edge. Two
+// triangles that share an edge compute the same determinant with opposite signs, and zero counts as inside for both: no
+// light leaks through the edge.
+//
+// Based on: Sven Woop, Carsten Benthin, Ingo Wald. Watertight Ray/Triangle Intersection. JCGT 2, 2013.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail::inline INSONIFY_FLAGS {
+
+/// A light's rays: parallel, or to a point.
+class light_rays {
+  public:
+    /// @param reach  no coordinate of a point that is tested is larger, metres
+    /// @throws invalid_input for a position that is not finite, and as light_frame does
+    light_rays(const any_light& light, double reach) : reach_(reach), light_reach_(reach) {
+        if (const auto* parallel = std::get_if<directional_light>(&light)) {
+            source_ = light_frame(*parallel).to_light();
+        } else {
+            source_ = std::get<point_light>(light).position;
+            is_near_ = true;
+            for (int i = 0; i < 3; ++i) {
+                insonify::detail::require(numeric::is_finite(source_[i]), "point_light.position", source_[i],
+                                          "finite coordinates");
+                light_reach_ = (std::max)(light_reach_, numeric::abs(source_[i]));
+            }
+        }
+    }
+
+    /// From a point to the light: unit length if it is parallel, the whole way if it is near.
+    glm::dvec3 toward(const glm::dvec3& p) const { return is_near_ ? source_ - p : source_; }
+
+    /// Whether the triangle (a, b, c) blocks the light of `from`.
+    bool are_blocked(const glm::dvec3& corner_a, const glm::dvec3& corner_b, const glm::dvec3& corner_c,
+                     const glm::dvec3& from) const {
+        const glm::dvec3 to_light = toward(from), a = corner_a - from, b = corner_b - from, c = corner_c - from;
+        // Corners sheared along the ray, in the two axes of its smaller components. A corner that triangles share is
+        // rounded alike for each.
+        const int axis = numeric::dominant_axis(to_light);
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const double shear_u = to_light[u] / to_light[axis], shear_v = to_light[v] / to_light[axis];
+        const auto across = [&](const glm::dvec3& p) {
+            return glm::dvec2(p[u] - shear_u * p[axis], p[v] - shear_v * p[axis]);
+        };
+        const glm::dvec2 a2 = across(a), b2 = across(b), c2 = across(c);
+        const double direction = to_light[axis] < 0 ? -1 : 1;
+        const double bc = direction * (b2.x * c2.y - b2.y * c2.x);
+        const double ca = direction * (c2.x * a2.y - c2.y * a2.x);
+        const double ab = direction * (a2.x * b2.y - a2.y * b2.x);
+        const bool is_left = bc >= 0 && ca >= 0 && ab >= 0, is_right = bc <= 0 && ca <= 0 && ab <= 0;
+        if (!is_left && !is_right) return false;
+        const glm::dvec3 normal = numeric::cross(b - a, c - a);
+        // Measured from the nearest corner: the rounding error of a distant one may exceed the point's distance.
+        const auto size = [](const glm::dvec3& d) { return numeric::abs(d.x) + numeric::abs(d.y) + numeric::abs(d.z); };
+        const glm::dvec3& some = size(a) <= size(b) ? a : b;
+        const double along = numeric::dot(normal, to_light),
+                     behind = numeric::dot(normal, size(some) <= size(c) ? some : c);
+        const double sign = is_left ? 1 : -1;
+        const double tolerance = 0x1p-40 * size(normal);
+        if (!(sign * along > 0 && sign * behind > reach_ * tolerance)) return false;
+        // What the light itself touches does not block it.
+        return !is_near_ || sign * (along - behind) > light_reach_ * tolerance;
+    }
+
+  private:
+    glm::dvec3 source_;           ///< direction, or position
+    double reach_, light_reach_;  ///< of points, and with the light
+    bool is_near_ = false;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
@@ -15679,8 +15713,8 @@ struct alignas(16) plane_vertex {
     float u, v, height;
     float state;  ///< 0, or one of the following
 
-    static constexpr float behind = 1;  ///< on the other side of a near light
-    static constexpr float beside = 2;  ///< too near to the plane of the light to have a direction
+    static constexpr float behind = 1;    ///< on the other side of a near light
+    static constexpr float too_near = 2;  ///< at a depth from 0 to min_depth: it has no direction
     static constexpr float not_finite = 3;
 };
 
@@ -15713,7 +15747,7 @@ struct plane_vertices_kernel {
             return;
         }
         if (plane.is_near() && !(p.z >= min_depth)) {
-            vertices[i] = {0, 0, 0, p.z < 0 ? plane_vertex::behind : plane_vertex::beside};
+            vertices[i] = {0, 0, 0, p.z < 0 ? plane_vertex::behind : plane_vertex::too_near};
             return;
         }
         const glm::dvec3 seen = plane.is_near() ? light_plane::seen(p) : p;
@@ -16080,7 +16114,7 @@ INSONIFY_ARITHMETIC_END
 // receivers themselves.
 //
 // Each triangle is compared with the receivers of the cells that it touches, several at a time, in float. Results
-// within the error of float are decided in double (blocking.hpp), so that every pair of triangle and receiver has the
+// within the error of float are decided in double (light_rays.hpp), so that every pair of triangle and receiver has the
 // result of the test in double. A receiver's own triangle is skipped by its index; there is no bias.
 //
 // Based on: Timo Aila, Samuli Laine. Alias-Free Shadow Maps. EGSR 2004. Gregory S. Johnson, Juhyun Lee, Christopher A.
@@ -16327,8 +16361,8 @@ struct tiled_plane {
     static int clamped(double at, int count) { return static_cast<int>((std::min)((std::max)(0.0, at), count - 1.0)); }
 };
 
-/// All planes of one light, with their tiles numbered consecutively: one plane for parallel light, or the six sides of
-/// a cube around a point light. Sides that no point lies over have no casters and no tiles.
+/// All planes of one light, with their tiles numbered consecutively: one plane for parallel light, or the six faces of
+/// a cube around a point light. Faces that no point lies over have no casters and no tiles.
 class tiled_planes {
   public:
     explicit tiled_planes(const any_light& light) {
@@ -16358,12 +16392,12 @@ class tiled_planes {
         std::uint32_t occupant;    ///< of the tile
     };
     place of(const glm::dvec3& p) const {
-        const auto side = static_cast<std::size_t>(near_light_ ? light_plane::side_of(*near_light_, p) : 0);
-        const tiled_plane& on = planes_[side];
+        const auto face = static_cast<std::size_t>(near_light_ ? light_plane::face_of(*near_light_, p) : 0);
+        const tiled_plane& on = planes_[face];
         if (on.casters.empty()) return {};
         const glm::dvec3 before = on.plane(p), seen = near_light_ ? light_plane::seen(before) : before;
         const std::size_t tile = on.tile_of(seen);
-        return {&on, seen, starts_[side] + tile, on.occupant[tile]};
+        return {&on, seen, starts_[face] + tile, on.occupant[tile]};
     }
 
   private:
@@ -16491,7 +16525,7 @@ INSONIFY_ARITHMETIC_END
 // cells of a tile, and each triangle is tested against the points under it (detail/occlusion_kernel.hpp). The cost is
 // linear in triangles and points, and there is no resolution and no bias.
 //
-// Every result is decided by one test in doubles (detail/blocking.hpp), for any mesh: open, closed, self-intersecting
+// Every result is decided by one test in doubles (detail/light_rays.hpp), for any mesh: open, closed, self-intersecting
 // or inside out. Triangles are skipped only where that provably changes nothing (shadow::skip).
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -16658,7 +16692,7 @@ class exact_occlusion {
         add_plane(plane, {lower, upper - lower, side, side}, 0x1p-44 * reach_of(bounds) * (1 + frame.cot_elevation()),
                   0, ex);
     }
-    /// The six sides of a cube around a point light.
+    /// The six faces of a cube around a point light.
     template <executor E>
     void add_point_planes(const point_light& light, const bounding_box& bounds, int side, E& ex) {
         for (int i = 0; i < 6; ++i) {
@@ -16785,10 +16819,10 @@ inline ground_rect casting_ground(const ground_rect& points, const seabed::heigh
     const double relief = range.highest - range.lowest;
     if (!(relief > 0)) return all;
     const auto* const from_nearby = std::get_if<shadow::point_light>(&light);
-    const auto light_at = [&](const glm::dvec2& beside) {  // a position if it is near, else a direction
-        if (from_nearby != nullptr) return shadow::point_of_disc(from_nearby->position, beside);
+    const auto light_at = [&](const glm::dvec2& disc_offset) {  // a position if it is near, else a direction
+        if (from_nearby != nullptr) return shadow::point_of_disc(from_nearby->position, disc_offset);
         const shadow::light_frame frame(std::get<shadow::directional_light>(light));
-        return shadow::toward_disc(frame.to_light(), frame.travel(), beside);
+        return shadow::toward_disc(frame.to_light(), frame.travel(), disc_offset);
     };
     const auto clamped = [&](double way) { return (std::max)(-longest, (std::min)(longest, way)); };
     for (const double across : {-radius, radius})
@@ -17073,7 +17107,7 @@ class pixel_marks {
 /// A pixel whose light is undecided, of one tile.
 struct undecided_pixel {
     std::uint16_t column, row;  ///< within the tile
-    std::uint32_t id;           ///< of its triangle, counted over all surfaces
+    std::uint32_t id;           ///< of its triangle, counted over all objects
     float direct;               ///< light that the source adds if nothing blocks it
 };
 
@@ -17228,8 +17262,8 @@ struct surface_vertex_shader {
     }
 };
 
-/// The bottom or a target, for the passes over the picture.
-struct surface {
+/// The bottom or a target as it is drawn, for the passes over the picture.
+struct drawn_object {
     placed_mesh placed;
     std::uint32_t first_id = 0;               ///< of its triangles in the visibility buffer
     std::uint32_t caster = 0;                 ///< index into the casters
@@ -17238,7 +17272,7 @@ struct surface {
     material whole;                           ///< if there are no types
     const seabed::type* types = nullptr;      ///< by vertex, of a bottom of several types
     const material* materials = nullptr;      ///< by type
-    std::uint16_t self_shadow_label = 0;      ///< label in labels::shadow where the surface shades itself
+    std::uint16_t self_shadow_label = 0;      ///< label in labels::shadow where the object shades itself
     const shadow::decision* known = nullptr;  ///< lit, dark or undecided, by triangle; null if none is decided
 };
 
@@ -17260,11 +17294,11 @@ struct shaded_images {
     }
 };
 
-/// Fragment shader over lanes of one surface.
+/// Fragment shader over lanes of one object.
 template <class Law>
 class surface_shader {
   public:
-    surface_shader(const overhead_geometry& view, const surface& object, const Law& law, const shaded_images& into)
+    surface_shader(const overhead_geometry& view, const drawn_object& object, const Law& law, const shaded_images& into)
         : object_(object),
           into_(into),
           law_(law),
@@ -17410,7 +17444,7 @@ class surface_shader {
             gather<N>(into, [&](int k) { return static_cast<float>(law_(lane(sine, k))); });
     }
 
-    const surface& object_;
+    const drawn_object& object_;
     shaded_images into_;
     Law law_;
     bool is_near_;
@@ -17575,7 +17609,7 @@ struct shown_pixel {
 
 /// Finds the points of some pixels of one object.
 struct point_kernel {
-    const surface& object;
+    const drawn_object& object;
     const view_from_object& from;
     std::span<const shown_pixel> pixels;
     bool has_near_light;
@@ -18229,9 +18263,9 @@ inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// The object that a visibility buffer's id belongs to.
-inline const surface& surface_of(const dynamic_array<surface>& surfaces, std::uint32_t id) {
-    const auto after = std::upper_bound(surfaces.begin(), surfaces.end(), id,
-                                        [](std::uint32_t i, const surface& s) { return i < s.first_id; });
+inline const drawn_object& object_of(const dynamic_array<drawn_object>& objects, std::uint32_t id) {
+    const auto after = std::upper_bound(objects.begin(), objects.end(), id,
+                                        [](std::uint32_t i, const drawn_object& s) { return i < s.first_id; });
     return *(after - 1);
 }
 
@@ -18246,17 +18280,17 @@ class shadow_pass {
     };
 
     /// @param targets  casters numbered below this are targets
-    shadow_pass(const overhead_geometry& view, const dynamic_array<surface>& surfaces, const images& of,
+    shadow_pass(const overhead_geometry& view, const dynamic_array<drawn_object>& objects, const images& of,
                 std::size_t targets, int tile, isa level)
         : view_(view),
-          surfaces_(surfaces),
+          objects_(objects),
           images_(of),
           targets_(static_cast<std::uint32_t>(targets)),
           tiles_(of.picture.width(), of.picture.height(), std::countr_zero(static_cast<unsigned>(tile))),
           tile_pixels_(static_cast<std::size_t>(tile) * static_cast<std::size_t>(tile)),
-          run_((std::min)(tiles_.run(), shadow::max_batch / tile_pixels_)),
+          grain_((std::min)(tiles_.grain(), shadow::max_batch / tile_pixels_)),
           level_(level) {
-        for (const surface& s : surfaces) frames_.push_back({view, s.placed.to_rig});
+        for (const drawn_object& s : objects) frames_.push_back({view, s.placed.to_rig});
     }
 
     /// Tests the points of every tile and adds the light that arrives. Occlusion that sees all points at once gets
@@ -18265,8 +18299,8 @@ class shadow_pass {
     void cast(const Occlusion& occlusion, E& ex) {
         constexpr bool is_collective = shadow::collective_occlusion<Occlusion>;
         dynamic_array<std::size_t> undecided(is_collective ? tiles_.count() : 0);  // points of each tile
-        bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
-            scratch room(surfaces_.size(), tile_pixels_);
+        bulk_ranges(ex, tiles_.count(), grain_, [&](std::size_t first, std::size_t last) {
+            scratch room(objects_.size(), tile_pixels_);
             for (std::size_t i = first; i < last; ++i) {
                 point_list points(room.points, 0, tile_pixels_);
                 find_points(i, room.shown, points);
@@ -18287,31 +18321,31 @@ class shadow_pass {
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
 
-    using shown_by_surface = dynamic_array<dynamic_array<shown_pixel>>;
+    using shown_by_object = dynamic_array<dynamic_array<shown_pixel>>;
     /// Memory that the tiles of a run share.
     struct scratch {
         point_batch points;
         light_arrays light;
-        shown_by_surface shown;
+        shown_by_object shown;
 
-        scratch(std::size_t surfaces, std::size_t pixels) : points(pixels), light(pixels), shown(surfaces) {}
+        scratch(std::size_t objects, std::size_t pixels) : points(pixels), light(pixels), shown(objects) {}
     };
 
     rect pixels_of(std::size_t tile) const {
         return tiles_.pixels(tile, images_.picture.width(), images_.picture.height());
     }
     /// The points of a tile whose light is undecided.
-    void find_points(std::size_t tile, shown_by_surface& shown, point_list& into) {
-        const surface* last = surfaces_.data();
+    void find_points(std::size_t tile, shown_by_object& shown, point_list& into) {
+        const drawn_object* last = objects_.data();
         images_.undecided.take(tile, [&](const undecided_pixel& p) {
-            if (p.id - last->first_id >= last->placed.shape.triangles.size()) last = &surface_of(surfaces_, p.id);
-            shown[static_cast<std::size_t>(last - surfaces_.data())].push_back(
+            if (p.id - last->first_id >= last->placed.shape.triangles.size()) last = &object_of(objects_, p.id);
+            shown[static_cast<std::size_t>(last - objects_.data())].push_back(
                 {p.column, p.row, p.id - last->first_id, p.direct});
         });
         const rect pixels = pixels_of(tile);
         for (std::size_t i = 0; i < frames_.size(); ++i) {
             if (shown[i].empty()) continue;
-            dispatch(point_kernel{surfaces_[i], frames_[i], shown[i], view_.has_near_light(), labelled, pixels,
+            dispatch(point_kernel{objects_[i], frames_[i], shown[i], view_.has_near_light(), labelled, pixels,
                                   static_cast<std::uint32_t>(images_.picture.width()), into},
                      level_);
             shown[i].clear();
@@ -18339,7 +18373,7 @@ class shadow_pass {
     void test_together(const Occlusion& occlusion, const dynamic_array<std::size_t>& undecided, E& ex) {
         // Tiles share a list, and more of them in large pictures, so that batches stay within their number: a list has
         // up to two.
-        const std::size_t tiles_per_list = (std::max)(run_, tiles_.count() / (shadow::max_batches / 2) + 1);
+        const std::size_t tiles_per_list = (std::max)(grain_, tiles_.count() / (shadow::max_batches / 2) + 1);
         dynamic_array<std::size_t> starts{0};  // of the points of each list
         for (std::size_t i = 0; i < tiles_.count(); ++i) {
             if (i % tiles_per_list == 0) starts.push_back(starts.back());
@@ -18350,7 +18384,7 @@ class shadow_pass {
         dynamic_array<point_list> lists;
         for (std::size_t i = 0; i + 1 < starts.size(); ++i) lists.push_back({all, starts[i], starts[i + 1]});
         bulk_ranges(ex, tiles_.count(), tiles_per_list, [&](std::size_t first, std::size_t last) {
-            shown_by_surface shown(surfaces_.size());
+            shown_by_object shown(objects_.size());
             for (std::size_t i = first; i < last; ++i)
                 if (undecided[i] > 0) find_points(i, shown, lists[first / tiles_per_list]);
         });
@@ -18390,13 +18424,13 @@ class shadow_pass {
     }
 
     const overhead_geometry& view_;
-    const dynamic_array<surface>& surfaces_;
-    dynamic_array<view_from_object> frames_;  ///< of the surfaces
+    const dynamic_array<drawn_object>& objects_;
+    dynamic_array<view_from_object> frames_;  ///< of the objects
     images images_;
     std::uint32_t targets_;
     tile_grid tiles_;
     std::size_t tile_pixels_;
-    std::size_t run_;  ///< tiles of a batch
+    std::size_t grain_;  ///< tiles of a batch
     isa level_;
 };
 
@@ -18443,21 +18477,21 @@ class overhead_painter {
     frame<Labels> paint(executor_ref ex) {
         if constexpr (casts) {
             dynamic_array<shadow::caster> casters;
-            for (const surface& t : targets()) casters.push_back(as_caster(view_, t.placed));
-            if (has_bottom()) casters.push_back(as_caster(view_, surfaces_.front().placed));
+            for (const drawn_object& t : targets()) casters.push_back(as_caster(view_, t.placed));
+            if (has_bottom()) casters.push_back(as_caster(view_, objects_.front().placed));
             const shadow::point_bounds bounds{receivers(), view_.ground_sampling(), options_.level};
             const auto occlusion =
                 options_.shadow.build(std::span<const shadow::caster>(casters), view_.light_source(), bounds, ex);
             const auto known = decide_triangles(occlusion, ex);
             draw_all(ex);
-            shadow_pass<Labels>(view_, surfaces_, {undecided_, out_.image, out_.labels}, targets().size(),
-                                options_.tile, options_.level)
+            shadow_pass<Labels>(view_, objects_, {undecided_, out_.image, out_.labels}, targets().size(), options_.tile,
+                                options_.level)
                 .cast(occlusion, ex);
         } else {
             draw_all(ex);
         }
         if constexpr (labelled) {
-            label_surfaces(ex);
+            label_objects(ex);
             measure_targets(out_.labels);
         }
         return std::move(out_);
@@ -18470,7 +18504,7 @@ class overhead_painter {
         for (std::size_t i = 0; i < shown.triangle.size(); ++i) {
             std::uint32_t& id = shown.triangle.pixels()[i];
             if (id == visibility::no_triangle) continue;
-            const surface& s = surface_of(surfaces_, id);
+            const drawn_object& s = object_of(objects_, id);
             shown.instance.pixels()[i] = s.instance;
             id -= s.first_id;
         }
@@ -18482,20 +18516,20 @@ class overhead_painter {
     static constexpr bool casts = !std::is_same_v<Shadow, shadow::none>;
 
     bool has_bottom() const { return !scene_.seabed.empty(); }
-    std::span<const surface> targets() const {
-        return {surfaces_.data() + (has_bottom() ? 1 : 0), scene_.targets.size()};
+    std::span<const drawn_object> targets() const {
+        return {objects_.data() + (has_bottom() ? 1 : 0), scene_.targets.size()};
     }
 
     /// @param caster  targets are numbered from 0 on, the seabed follows
     void add(const placed_mesh& placed, std::size_t caster, std::uint16_t instance, std::uint8_t seabed,
              const material& m) {
-        const std::uint64_t first = surfaces_.empty() ? 0
-                                                      : std::uint64_t{surfaces_.back().first_id} +
-                                                            surfaces_.back().placed.shape.triangles.size();
+        const std::uint64_t first =
+            objects_.empty() ? 0
+                             : std::uint64_t{objects_.back().first_id} + objects_.back().placed.shape.triangles.size();
         const std::uint64_t end = first + placed.shape.triangles.size();
         require(end < shadow::invalid_id, "triangles of the scene", end, "below 2^32 - 1");
-        surfaces_.push_back({});
-        surface& s = surfaces_.back();
+        objects_.push_back({});
+        drawn_object& s = objects_.back();
         s.placed = placed;
         s.first_id = static_cast<std::uint32_t>(first);
         s.caster = static_cast<std::uint32_t>(caster);
@@ -18530,8 +18564,8 @@ class overhead_painter {
         add(bottom_.placed_under(view_), scene_.targets.size(), labels::no_instance,
             static_cast<std::uint8_t>(field.fallback), materials_[seabed::index_of(field.fallback)]);
         if (field.types.empty()) return;
-        surfaces_.back().types = field.types.pixels().data();
-        surfaces_.back().materials = materials_.data();
+        objects_.back().types = field.types.pixels().data();
+        objects_.back().materials = materials_.data();
     }
 
     /// A box around everything that the picture may show.
@@ -18541,7 +18575,7 @@ class overhead_painter {
             low = (std::numeric_limits<double>::max)();
             top = -low;
         }
-        for (const surface& t : targets())
+        for (const drawn_object& t : targets())
             for (int corner = 0; corner < 8 && !t.placed.box.empty(); ++corner) {
                 const double z = transform_point(t.placed.to_rig, t.placed.box.corner(corner)).z;
                 top = (std::max)(top, z);
@@ -18552,12 +18586,12 @@ class overhead_painter {
         return {{-half, low}, {half, top}};
     }
 
-    /// Decides whole triangles before they are drawn, lit or dark. The surfaces point to the results.
+    /// Decides whole triangles before they are drawn, lit or dark. The objects point to the results.
     template <class Occlusion>
     dynamic_array<uninitialized_array<shadow::decision>> decide_triangles(const Occlusion& occlusion, executor_ref ex) {
         dynamic_array<uninitialized_array<shadow::decision>> known;
         if constexpr (shadow::triangle_occlusion<Occlusion>)
-            for (surface& s : surfaces_) {
+            for (drawn_object& s : objects_) {
                 // A mesh much finer than the picture has more triangles than points to test.
                 if (s.placed.shape.triangles.size() > 2 * out_.image.size()) continue;
                 known.push_back(occlusion.decide_triangles(s.caster, view_.eye(), ex));
@@ -18574,7 +18608,7 @@ class overhead_painter {
                 .level = options_.level};
     }
 
-    /// Draws all surfaces: light where it is decided, and the visibility buffer.
+    /// Draws all objects: light where it is decided, and the visibility buffer.
     void draw_all(executor_ref ex) {
         const overhead& rig = view_.rig();
         image<float> depth(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
@@ -18590,27 +18624,27 @@ class overhead_painter {
             into.ids = &ids_;
         }
         if constexpr (labelled) into.types = &out_.labels.seabed;
-        if (surfaces_.empty()) into.clear({0, 0, rig.size.x, rig.size.y});
-        for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-            const placed_mesh& placed = surfaces_[i].placed;
+        if (objects_.empty()) into.clear({0, 0, rig.size.x, rig.size.y});
+        for (std::size_t i = 0; i < objects_.size(); ++i) {
+            const placed_mesh& placed = objects_[i].placed;
             const draw_stats stats =
                 draw(placed.shape, surface_vertex_shader(view_, placed),
-                     surface_shader<Law>(view_, surfaces_[i], options_.law, into), framebuffer<void>{depth},
+                     surface_shader<Law>(view_, objects_[i], options_.law, into), framebuffer<void>{depth},
                      draw_options_of(i == 0 ? depth_load::clear : depth_load::keep), ex);
             (has_bottom() && i == 0 ? out_.stats.seabed : out_.stats.targets) += stats;
         }
     }
 
     /// Labels instances and seabed types from the visibility buffer.
-    void label_surfaces(executor_ref ex) {
-        if (surfaces_.empty()) return;
+    void label_objects(executor_ref ex) {
+        if (objects_.empty()) return;
         ex.bulk(static_cast<std::size_t>(ids_.height()), [&](std::size_t row) {
             const int y = static_cast<int>(row);
-            const surface* last = surfaces_.data();
+            const drawn_object* last = objects_.data();
             for (int x = 0; x < ids_.width(); ++x) {
                 const std::uint32_t id = ids_(x, y);
                 if (id == shadow::invalid_id) continue;
-                if (id - last->first_id >= last->placed.shape.triangles.size()) last = &surface_of(surfaces_, id);
+                if (id - last->first_id >= last->placed.shape.triangles.size()) last = &object_of(objects_, id);
                 out_.labels.instance(x, y) = last->instance;
                 if (last->types == nullptr) out_.labels.seabed(x, y) = last->seabed;
             }
@@ -18621,11 +18655,11 @@ class overhead_painter {
     bottom_materials materials_;  ///< by seabed::type
     overhead_geometry view_;
     render_options<Shadow, Labels, Law, Depth> options_;
-    image<std::uint32_t> ids_;  ///< the visibility buffer; triangles are numbered in the order of surfaces_
+    image<std::uint32_t> ids_;  ///< the visibility buffer; triangles are numbered in the order of objects_
     undecided_light undecided_;
     frame<Labels> out_;
     sampled_bottom bottom_;
-    dynamic_array<surface> surfaces_;  ///< the seabed, if there is one, and the targets, as they are drawn
+    dynamic_array<drawn_object> objects_;  ///< the seabed, if there is one, and the targets, as they are drawn
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -19082,8 +19116,8 @@ struct settings {
         const glm::dvec3 light = view.light_position();
         const double above = (std::max)(light.z - centre.z - radius, 0.05 * light.z);
         const double x = centre.x - light.x, y = centre.y - light.y;
-        const double beside = numeric::square_root(x * x + y * y) + radius;
-        const double sine = above / numeric::square_root(beside * beside + above * above);
+        const double level = numeric::square_root(x * x + y * y) + radius;
+        const double sine = above / numeric::square_root(level * level + above * above);
         return sine * above / light.z;
     }
 
@@ -22170,8 +22204,17 @@ inline image<float> border_distances(const image<float>& coverage) {
         }
     return distances;
 }
-/// @param s  a stencil whose pixels are distances from its border, see border_distances
-inline double signed_distance(const stencil& s, const glm::dvec2& p) {
+/// A stencil's signed distances from its border.
+struct distance_map {
+    image<float> distances;  ///< in pixels, see border_distances
+    glm::dvec2 origin{0};    ///< of pixel (0, 0), metres
+    double spacing = 1;      ///< metres
+
+    distance_map() = default;
+    explicit distance_map(const stencil& s)
+        : distances(border_distances(s.coverage)), origin(s.origin), spacing(s.spacing) {}
+};
+inline double signed_distance(const distance_map& m, const glm::dvec2& p) {
     struct sample {
         int lower, upper;
         double fraction;
@@ -22181,12 +22224,12 @@ inline double signed_distance(const stencil& s, const glm::dvec2& p) {
         const int cell = (std::min)(static_cast<int>(clamped), (std::max)(pixels - 2, 0));
         return sample{cell, (std::min)(cell + 1, pixels - 1), clamped - cell};
     };
-    const auto [x, right, u] = axis((p.x - s.origin.x) / s.spacing, s.coverage.width());
-    const auto [y, up, v] = axis((p.y - s.origin.y) / s.spacing, s.coverage.height());
-    const auto value = [&](int i, int j) { return static_cast<double>(s.coverage(i, j)); };
+    const auto [x, right, u] = axis((p.x - m.origin.x) / m.spacing, m.distances.width());
+    const auto [y, up, v] = axis((p.y - m.origin.y) / m.spacing, m.distances.height());
+    const auto value = [&](int i, int j) { return static_cast<double>(m.distances(i, j)); };
     const double low = value(x, y) + u * (value(right, y) - value(x, y));
     const double high = value(x, up) + u * (value(right, up) - value(x, up));
-    return (low + v * (high - low)) * s.spacing;
+    return (low + v * (high - low)) * m.spacing;
 }
 
 inline void validate(const disc& d) {
@@ -22213,12 +22256,12 @@ inline void validate(const stencil& s) {
 }
 
 /// Evaluates an `area` along rows.
-class outline {
+class area_sampler {
   public:
     /// @param border  metres, > 0: the finest detail of the outline
     /// @param ragged  metres: rms deviation of the outline from the shape
     /// @param layer   selects the random stream, so that outlines of one seed differ
-    outline(area where, float border, float ragged, std::uint64_t seed, std::uint32_t layer)
+    area_sampler(area where, float border, float ragged, std::uint64_t seed, std::uint32_t layer)
         : shape_(std::move(where)), noise_(roughness_of(shape_, border, ragged), seed, stream::mask, layer) {
         if (const auto* p = std::get_if<patches>(&shape_)) {
             require_fraction("patches.coverage", p->coverage);
@@ -22234,7 +22277,10 @@ class outline {
                 if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(shape)>, patches>) validate(shape);
             },
             shape_);
-        if (auto* const s = std::get_if<stencil>(&shape_)) s->coverage = border_distances(s->coverage);
+        if (auto* const s = std::get_if<stencil>(&shape_)) {
+            stencil_distances_ = distance_map(*s);
+            s->coverage = {};  // no longer needed
+        }
     }
 
     /// Writes the signed distances of a stretch's positions, metres, positive inside.
@@ -22243,11 +22289,16 @@ class outline {
         noise_.add(part, values);
         std::visit(
             [&](const auto& shape) {
-                for (std::size_t i = 0; i < part.count; ++i)
-                    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(shape)>, patches>)
+                using shape_type = std::remove_cvref_t<decltype(shape)>;
+                for (std::size_t i = 0; i < part.count; ++i) {
+                    const glm::dvec2 p(part.x[i], part.y);
+                    if constexpr (std::is_same_v<shape_type, patches>)
                         values[i] = offset_ + scale_ * values[i];
+                    else if constexpr (std::is_same_v<shape_type, stencil>)
+                        values[i] += static_cast<float>(signed_distance(stencil_distances_, p));
                     else
-                        values[i] += static_cast<float>(signed_distance(shape, {part.x[i], part.y}));
+                        values[i] += static_cast<float>(signed_distance(shape, p));
+                }
             },
             shape_);
     }
@@ -22267,6 +22318,7 @@ class outline {
     }
 
     area shape_;
+    distance_map stencil_distances_;  ///< if the area is a stencil
     power_law_noise noise_;
     float scale_ = 1, offset_ = 0;
 };
@@ -22662,12 +22714,12 @@ class border {
     /// Progress across the border: 0 outside of the layer, 1 where it hides the ground below.
     float across(float margin) const { return saturate(0.5f + margin * per_metre_); }
 
-    struct surface {
+    struct composite {
         float height;
         bool is_layer;
     };
     /// The upper surface at progress `t`; at 0 exactly the ground, at 1 exactly the layer.
-    surface at(float t, float below, float layer) const {
+    composite at(float t, float below, float layer) const {
         const float rise = layer - below;
         if (t <= 0) return {below, false};
         if (t >= 1) return {layer, true};
@@ -22702,7 +22754,7 @@ struct sample_range {
 /// Composites a layer over the ground below. `below(line, heights, types)` evaluates the ground where the layer does
 /// not hide it.
 template <class Below, typed_sampler Layer>
-void lay_over(const outline& where, const border& edge, const Layer& layer, const scanline& line,
+void lay_over(const area_sampler& where, const border& edge, const Layer& layer, const scanline& line,
               std::span<float> heights, std::span<type> types, Below&& below) {
     const std::size_t count = heights.size();
     const stretch part(line, count);
@@ -22724,7 +22776,7 @@ void lay_over(const outline& where, const border& edge, const Layer& layer, cons
     const std::span<type> layer_types(other_types.data(), types.size());
     layer.row(line.from(above.begin), above.of(layer_heights), above.of(layer_types));
     for (std::size_t i = above.begin; i < above.end; ++i) {
-        const border::surface top = edge.at(across[i], heights[i], other[i]);
+        const border::composite top = edge.at(across[i], heights[i], other[i]);
         heights[i] = top.height;
         if (top.is_layer && !types.empty()) types[i] = other_types[i];
     }
@@ -22825,7 +22877,7 @@ class mixed_sampler {
 
     struct prepared_layer {
         any_sampler bottom;
-        detail::outline where;
+        detail::area_sampler where;
         detail::border edge;
     };
     any_sampler base_;
@@ -23296,7 +23348,7 @@ inline std::array<float, 16> spline_weights(float fraction) {
 /// @param ground  fills the heights of rows
 template <class Ground>
 void smooth_row(const smooth& e, const scanline& line, std::span<float> heights, Ground&& ground) {
-    const double step = rounded_to_eight_bits(static_cast<double>(e.length)) / 4;
+    const double step = numeric::rounded_to_eight_bits(static_cast<double>(e.length)) / 4;
     const lattice_coordinate v(line.y / step);
     const std::int64_t first = numeric::floor_to_int(line.x(0) / step) - 7;
     const std::int64_t last = numeric::floor_to_int(line.x(heights.size() - 1) / step) + 8;
@@ -23911,13 +23963,13 @@ class penumbra_occlusion {
     };
 
     /// A point of the light, or none below the horizon.
-    /// @param beside  its offset from the disc's centre, across and up, divided by the light's distance
-    static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& beside) {
-        if (beside == glm::dvec2(0)) return light;
+    /// @param disc_offset  from the disc's centre, across and up, divided by the light's distance
+    static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& disc_offset) {
+        if (disc_offset == glm::dvec2(0)) return light;
         if (const auto* from_nearby = std::get_if<point_light>(&light))
-            return point_light{point_of_disc(from_nearby->position, beside)};
+            return point_light{point_of_disc(from_nearby->position, disc_offset)};
         const light_frame frame(std::get<directional_light>(light));
-        const glm::dvec3 d = toward_disc(frame.to_light(), frame.travel(), beside);
+        const glm::dvec3 d = toward_disc(frame.to_light(), frame.travel(), disc_offset);
         if (!(d.z > 0)) return std::nullopt;
         const double level = numeric::square_root(d.x * d.x + d.y * d.y);
         return directional_light{numeric::atan2(-d.y, -d.x), numeric::atan2(d.z, level)};
@@ -24653,7 +24705,7 @@ class bottom_tiles {
     /// Rounds a length so that its multiples are exact: a vertex has the same coordinates in every row.
     static double even(double length) {
         require(length > 1e-9 && length < 1e9, "cell", length, "metres above 0");
-        return seabed::detail::rounded_to_eight_bits(length);
+        return numeric::rounded_to_eight_bits(length);
     }
 
     /// Samples the seabed below some pings, and discards all other tiles.
@@ -26691,10 +26743,10 @@ inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type
 /// The recording with speckle, by its own ping numbers and legend.
 template <executor_argument E = serial_executor>
 frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex = {}) {
-    const seabed_speckle laws = with_legend(s, r.labels.legend);
+    const seabed_speckle completed = with_legend(s, r.labels.legend);
     const int port = r.rows.port_columns;
     if (port == 0) {
-        r.image = with_speckle(r.image.view(), r.labels.seabed.view(), laws, r.rows, ex);
+        r.image = with_speckle(r.image.view(), r.labels.seabed.view(), completed, r.rows, ex);
         return r;
     }
     const auto channel = [&](side looks, int left, int width) {
@@ -26705,7 +26757,7 @@ frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex
         };
         const auto mean = part(r.image);
         const auto types = part(r.labels.seabed);
-        const auto noisy = with_speckle(mean.view(), types.view(), laws, {r.rows.first, r.rows.step, looks}, ex);
+        const auto noisy = with_speckle(mean.view(), types.view(), completed, {r.rows.first, r.rows.step, looks}, ex);
         return is_port ? mirrored(noisy) : noisy;
     };
     r.image = beside(channel(side::port, 0, port), channel(side::starboard, port, r.image.width() - port));

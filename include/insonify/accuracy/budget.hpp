@@ -99,8 +99,8 @@ struct settings {
         const glm::dvec3 light = view.light_position();
         const double above = (std::max)(light.z - centre.z - radius, 0.05 * light.z);
         const double x = centre.x - light.x, y = centre.y - light.y;
-        const double beside = numeric::square_root(x * x + y * y) + radius;
-        const double sine = above / numeric::square_root(beside * beside + above * above);
+        const double level = numeric::square_root(x * x + y * y) + radius;
+        const double sine = above / numeric::square_root(level * level + above * above);
         return sine * above / light.z;
     }
 

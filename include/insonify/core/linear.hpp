@@ -1,5 +1,6 @@
-// Vectors and matrices: products with fixed rounding, and whether coordinates are finite. GLM's products may be compiled
-// with fused multiply-add, which would make pictures depend on compiler flags. Storage, sums and scalings are GLM's.
+// Vectors and matrices: products with fixed rounding, dominant axes, and whether coordinates are finite. GLM's products
+// may be compiled with fused multiply-add, which would make pictures depend on compiler flags. Storage, sums and
+// scalings are GLM's.
 #pragma once
 
 #include <insonify/core/numeric.hpp>
@@ -31,6 +32,13 @@ INSONIFY_INLINE T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
 template <class T>
 INSONIFY_INLINE glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
     return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
+}
+
+/// Axis of the component of largest magnitude, the first of equal ones.
+template <class T>
+INSONIFY_INLINE int dominant_axis(const glm::vec<3, T>& v) {
+    const T x = abs(v.x), y = abs(v.y), z = abs(v.z);
+    return x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
 }
 
 /// m v, as GLM stores matrices: by columns.

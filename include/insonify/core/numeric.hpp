@@ -96,6 +96,15 @@ constexpr std::int64_t floor_to_int(double value) {
     return truncated - (static_cast<double>(truncated) > value ? 1 : 0);
 }
 
+/// Rounds a length, above 0 and finite, to eight significant bits: its multiples are exact in double, so that nodes at
+/// multiples of it are the same in every row.
+inline double rounded_to_eight_bits(double length) {
+    double unit = 1;
+    while (unit * 256 <= length) unit *= 2;
+    while (unit * 128 > length) unit /= 2;
+    return static_cast<double>(floor_to_int(length / unit + 0.5)) * unit;
+}
+
 /// Natural logarithm, <= 1 ulp. log(0) = -infinity, negative and NaN give NaN.
 ///
 /// x = 2^k m with m in [sqrt(1/2), sqrt(2)); log m = 2 atanh((m - 1) / (m + 1)) as a series.

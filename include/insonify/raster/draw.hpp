@@ -43,9 +43,9 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& shader, image_view
     const screen_mesh<real> screen(m, shader, grid, tiles, options, HasIds, records, ex);
     const float sign = options.keep == keep_depth::smaller ? 1.0f : -1.0f;
 
-    const std::size_t run = tiles.run();
-    dynamic_array<std::uint64_t> shaded((tiles.count() + run - 1) / run, 0);
-    bulk_ranges(ex, tiles.count(), run, [&](std::size_t first, std::size_t last) {
+    const std::size_t grain = tiles.grain();
+    dynamic_array<std::uint64_t> shaded((tiles.count() + grain - 1) / grain, 0);
+    bulk_ranges(ex, tiles.count(), grain, [&](std::size_t first, std::size_t last) {
         tile_buffer<HasIds> buffer(options.tile);
         for (std::size_t tile = first; tile < last; ++tile) {
             const tile_triangles<real> triangles{screen, screen.bin(tile), tiles.pixels(tile, grid.width, grid.height),
@@ -54,7 +54,7 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& shader, image_view
             if (triangles.bin.empty() && keep) continue;
             dispatch(tile_kernel<tile_triangles<real>, HasIds, real>{triangles, buffer, depth, sign, keep},
                      options.level);
-            shaded[first / run] += finish(triangles, buffer, sign);
+            shaded[first / grain] += finish(triangles, buffer, sign);
         }
     });
     draw_stats stats = screen.stats();

@@ -139,8 +139,17 @@ inline image<float> border_distances(const image<float>& coverage) {
         }
     return distances;
 }
-/// @param s  a stencil whose pixels are distances from its border, see border_distances
-inline double signed_distance(const stencil& s, const glm::dvec2& p) {
+/// A stencil's signed distances from its border.
+struct distance_map {
+    image<float> distances;  ///< in pixels, see border_distances
+    glm::dvec2 origin{0};    ///< of pixel (0, 0), metres
+    double spacing = 1;      ///< metres
+
+    distance_map() = default;
+    explicit distance_map(const stencil& s)
+        : distances(border_distances(s.coverage)), origin(s.origin), spacing(s.spacing) {}
+};
+inline double signed_distance(const distance_map& m, const glm::dvec2& p) {
     struct sample {
         int lower, upper;
         double fraction;
@@ -150,12 +159,12 @@ inline double signed_distance(const stencil& s, const glm::dvec2& p) {
         const int cell = (std::min)(static_cast<int>(clamped), (std::max)(pixels - 2, 0));
         return sample{cell, (std::min)(cell + 1, pixels - 1), clamped - cell};
     };
-    const auto [x, right, u] = axis((p.x - s.origin.x) / s.spacing, s.coverage.width());
-    const auto [y, up, v] = axis((p.y - s.origin.y) / s.spacing, s.coverage.height());
-    const auto value = [&](int i, int j) { return static_cast<double>(s.coverage(i, j)); };
+    const auto [x, right, u] = axis((p.x - m.origin.x) / m.spacing, m.distances.width());
+    const auto [y, up, v] = axis((p.y - m.origin.y) / m.spacing, m.distances.height());
+    const auto value = [&](int i, int j) { return static_cast<double>(m.distances(i, j)); };
     const double low = value(x, y) + u * (value(right, y) - value(x, y));
     const double high = value(x, up) + u * (value(right, up) - value(x, up));
-    return (low + v * (high - low)) * s.spacing;
+    return (low + v * (high - low)) * m.spacing;
 }
 
 inline void validate(const disc& d) {
@@ -182,12 +191,12 @@ inline void validate(const stencil& s) {
 }
 
 /// Evaluates an `area` along rows.
-class outline {
+class area_sampler {
   public:
     /// @param border  metres, > 0: the finest detail of the outline
     /// @param ragged  metres: rms deviation of the outline from the shape
     /// @param layer   selects the random stream, so that outlines of one seed differ
-    outline(area where, float border, float ragged, std::uint64_t seed, std::uint32_t layer)
+    area_sampler(area where, float border, float ragged, std::uint64_t seed, std::uint32_t layer)
         : shape_(std::move(where)), noise_(roughness_of(shape_, border, ragged), seed, stream::mask, layer) {
         if (const auto* p = std::get_if<patches>(&shape_)) {
             require_fraction("patches.coverage", p->coverage);
@@ -203,7 +212,10 @@ class outline {
                 if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(shape)>, patches>) validate(shape);
             },
             shape_);
-        if (auto* const s = std::get_if<stencil>(&shape_)) s->coverage = border_distances(s->coverage);
+        if (auto* const s = std::get_if<stencil>(&shape_)) {
+            stencil_distances_ = distance_map(*s);
+            s->coverage = {};  // no longer needed
+        }
     }
 
     /// Writes the signed distances of a stretch's positions, metres, positive inside.
@@ -212,11 +224,16 @@ class outline {
         noise_.add(part, values);
         std::visit(
             [&](const auto& shape) {
-                for (std::size_t i = 0; i < part.count; ++i)
-                    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(shape)>, patches>)
+                using shape_type = std::remove_cvref_t<decltype(shape)>;
+                for (std::size_t i = 0; i < part.count; ++i) {
+                    const glm::dvec2 p(part.x[i], part.y);
+                    if constexpr (std::is_same_v<shape_type, patches>)
                         values[i] = offset_ + scale_ * values[i];
+                    else if constexpr (std::is_same_v<shape_type, stencil>)
+                        values[i] += static_cast<float>(signed_distance(stencil_distances_, p));
                     else
-                        values[i] += static_cast<float>(signed_distance(shape, {part.x[i], part.y}));
+                        values[i] += static_cast<float>(signed_distance(shape, p));
+                }
             },
             shape_);
     }
@@ -236,6 +253,7 @@ class outline {
     }
 
     area shape_;
+    distance_map stencil_distances_;  ///< if the area is a stencil
     power_law_noise noise_;
     float scale_ = 1, offset_ = 0;
 };

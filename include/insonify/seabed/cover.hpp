@@ -25,12 +25,12 @@ class border {
     /// Progress across the border: 0 outside of the layer, 1 where it hides the ground below.
     float across(float margin) const { return saturate(0.5f + margin * per_metre_); }
 
-    struct surface {
+    struct composite {
         float height;
         bool is_layer;
     };
     /// The upper surface at progress `t`; at 0 exactly the ground, at 1 exactly the layer.
-    surface at(float t, float below, float layer) const {
+    composite at(float t, float below, float layer) const {
         const float rise = layer - below;
         if (t <= 0) return {below, false};
         if (t >= 1) return {layer, true};
@@ -65,7 +65,7 @@ struct sample_range {
 /// Composites a layer over the ground below. `below(line, heights, types)` evaluates the ground where the layer does
 /// not hide it.
 template <class Below, typed_sampler Layer>
-void lay_over(const outline& where, const border& edge, const Layer& layer, const scanline& line,
+void lay_over(const area_sampler& where, const border& edge, const Layer& layer, const scanline& line,
               std::span<float> heights, std::span<type> types, Below&& below) {
     const std::size_t count = heights.size();
     const stretch part(line, count);
@@ -87,7 +87,7 @@ void lay_over(const outline& where, const border& edge, const Layer& layer, cons
     const std::span<type> layer_types(other_types.data(), types.size());
     layer.row(line.from(above.begin), above.of(layer_heights), above.of(layer_types));
     for (std::size_t i = above.begin; i < above.end; ++i) {
-        const border::surface top = edge.at(across[i], heights[i], other[i]);
+        const border::composite top = edge.at(across[i], heights[i], other[i]);
         heights[i] = top.height;
         if (top.is_layer && !types.empty()) types[i] = other_types[i];
     }

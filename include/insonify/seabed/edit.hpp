@@ -228,7 +228,7 @@ inline std::array<float, 16> spline_weights(float fraction) {
 /// @param ground  fills the heights of rows
 template <class Ground>
 void smooth_row(const smooth& e, const scanline& line, std::span<float> heights, Ground&& ground) {
-    const double step = rounded_to_eight_bits(static_cast<double>(e.length)) / 4;
+    const double step = numeric::rounded_to_eight_bits(static_cast<double>(e.length)) / 4;
     const lattice_coordinate v(line.y / step);
     const std::int64_t first = numeric::floor_to_int(line.x(0) / step) - 7;
     const std::int64_t last = numeric::floor_to_int(line.x(heights.size() - 1) / step) + 8;

@@ -82,7 +82,7 @@ class mixed_sampler {
 
     struct prepared_layer {
         any_sampler bottom;
-        detail::outline where;
+        detail::area_sampler where;
         detail::border edge;
     };
     any_sampler base_;

@@ -52,22 +52,23 @@ class rock_sampler {
         detail::require_range("rock.sizes", r.sizes, 0, 4, "0 to 4");
         detail::require_fraction("rock.fracture", r.fracture);
         detail::require(r.steepness > 0 && r.steepness < 1e6f, "rock.steepness", r.steepness, "above 0 and below 10^6");
-        double cell = static_cast<double>(r.outcrop) / 2;
-        for (std::uint32_t k = 0; k < 3; ++k, cell /= 2)
-            outcrops_.push_back(detail::gradient_noise(cell, {r.seed, detail::stream::outcrops, k}));
-        // Blocks of half the size are 2^sizes times as many, in four times as many cells.
-        const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(r.sizes) - 2));
-        float share = 1, height = 0.8f * r.relief, largest = 1;
-        float size = r.block;
+        double outcrop_cell = static_cast<double>(r.outcrop) / 2;
+        for (std::uint32_t k = 0; k < 3; ++k, outcrop_cell /= 2)
+            outcrops_.push_back(detail::gradient_noise(outcrop_cell, {r.seed, detail::stream::outcrops, k}));
+        // Blocks of half the size are 2^exponent times as many, in four times as many cells.
+        const float widest_spacing = r.block, narrowest_spacing = r.smallest, exponent = r.sizes;
+        const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(exponent) - 2));
+        float share = 1, largest_share = 1, spacing = widest_spacing;
         detail::dynamic_array<float> shares;
-        for (; shares.empty() || size >= r.smallest; size /= 2, share *= ratio) {
+        for (; shares.empty() || spacing >= narrowest_spacing; spacing /= 2, share *= ratio) {
             shares.push_back(share);
-            largest = (std::max)(largest, share);
+            largest_share = (std::max)(largest_share, share);
         }
-        size = r.block;
-        for (std::uint32_t k = 0; k < shares.size(); ++k, size /= 2, height /= 2) {
-            blocks_.push_back({static_cast<double>(size),
-                               r.fracture * shares[k] / largest,
+        spacing = widest_spacing;
+        float height = 0.8f * r.relief;
+        for (std::uint32_t k = 0; k < shares.size(); ++k, spacing /= 2, height /= 2) {
+            blocks_.push_back({static_cast<double>(spacing),
+                               r.fracture * shares[k] / largest_share,
                                height,
                                r.steepness,
                                {r.seed, detail::stream::blocks, k}});

@@ -5,13 +5,13 @@
 // cells of a tile, and each triangle is tested against the points under it (detail/occlusion_kernel.hpp). The cost is
 // linear in triangles and points, and there is no resolution and no bias.
 //
-// Every result is decided by one test in doubles (detail/blocking.hpp), for any mesh: open, closed, self-intersecting
+// Every result is decided by one test in doubles (detail/light_rays.hpp), for any mesh: open, closed, self-intersecting
 // or inside out. Triangles are skipped only where that provably changes nothing (shadow::skip).
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
-#include <insonify/shadow/detail/blocking.hpp>
 #include <insonify/shadow/detail/grid_caster.hpp>
+#include <insonify/shadow/detail/light_rays.hpp>
 #include <insonify/shadow/detail/occlusion_kernel.hpp>
 #include <insonify/shadow/detail/points_by_tile.hpp>
 #include <insonify/shadow/detail/tiled_plane.hpp>
@@ -182,7 +182,7 @@ class exact_occlusion {
         add_plane(plane, {lower, upper - lower, side, side}, 0x1p-44 * reach_of(bounds) * (1 + frame.cot_elevation()),
                   0, ex);
     }
-    /// The six sides of a cube around a point light.
+    /// The six faces of a cube around a point light.
     template <executor E>
     void add_point_planes(const point_light& light, const bounding_box& bounds, int side, E& ex) {
         for (int i = 0; i < 6; ++i) {

@@ -72,21 +72,21 @@ class light_frame {
 };
 
 /// Direction to a point of a disc of light, in units of the distance to its centre.
-/// @param to_light  unit vector to the centre
-/// @param travel    unit vector on the ground along which shadows grow
-/// @param beside    offset from the centre, across and up, in the same unit
-inline glm::dvec3 toward_disc(const glm::dvec3& to_light, const glm::dvec2& travel, const glm::dvec2& beside) {
+/// @param to_light     unit vector to the centre
+/// @param travel       unit vector on the ground along which shadows grow
+/// @param disc_offset  from the centre, across and up, in the same unit
+inline glm::dvec3 toward_disc(const glm::dvec3& to_light, const glm::dvec2& travel, const glm::dvec2& disc_offset) {
     const glm::dvec3 across(-travel.y, travel.x, 0), up = numeric::cross(to_light, across);
-    return to_light + beside.x * across + beside.y * up;
+    return to_light + disc_offset.x * across + disc_offset.y * up;
 }
 
 /// A point of a disc of light that faces the origin.
-/// @param beside  offset from the centre, across and up, over the centre's distance from the origin
-inline glm::dvec3 point_of_disc(const glm::dvec3& centre, const glm::dvec2& beside) {
+/// @param disc_offset  from the centre, across and up, over the centre's distance from the origin
+inline glm::dvec3 point_of_disc(const glm::dvec3& centre, const glm::dvec2& disc_offset) {
     const double distance = numeric::square_root(numeric::dot(centre, centre));
     const double level = numeric::square_root(centre.x * centre.x + centre.y * centre.y);
     const glm::dvec2 travel = level > 0 ? glm::dvec2(-centre.x / level, -centre.y / level) : glm::dvec2(1, 0);
-    return distance > 0 ? distance * toward_disc(centre / distance, travel, beside) : centre;
+    return distance > 0 ? distance * toward_disc(centre / distance, travel, disc_offset) : centre;
 }
 
 }  // namespace INSONIFY_FLAGS

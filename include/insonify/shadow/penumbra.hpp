@@ -63,13 +63,13 @@ class penumbra_occlusion {
     };
 
     /// A point of the light, or none below the horizon.
-    /// @param beside  its offset from the disc's centre, across and up, divided by the light's distance
-    static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& beside) {
-        if (beside == glm::dvec2(0)) return light;
+    /// @param disc_offset  from the disc's centre, across and up, divided by the light's distance
+    static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& disc_offset) {
+        if (disc_offset == glm::dvec2(0)) return light;
         if (const auto* from_nearby = std::get_if<point_light>(&light))
-            return point_light{point_of_disc(from_nearby->position, beside)};
+            return point_light{point_of_disc(from_nearby->position, disc_offset)};
         const light_frame frame(std::get<directional_light>(light));
-        const glm::dvec3 d = toward_disc(frame.to_light(), frame.travel(), beside);
+        const glm::dvec3 d = toward_disc(frame.to_light(), frame.travel(), disc_offset);
         if (!(d.z > 0)) return std::nullopt;
         const double level = numeric::square_root(d.x * d.x + d.y * d.y);
         return directional_light{numeric::atan2(-d.y, -d.x), numeric::atan2(d.z, level)};

@@ -157,10 +157,10 @@ inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type
 /// The recording with speckle, by its own ping numbers and legend.
 template <executor_argument E = serial_executor>
 frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex = {}) {
-    const seabed_speckle laws = with_legend(s, r.labels.legend);
+    const seabed_speckle completed = with_legend(s, r.labels.legend);
     const int port = r.rows.port_columns;
     if (port == 0) {
-        r.image = with_speckle(r.image.view(), r.labels.seabed.view(), laws, r.rows, ex);
+        r.image = with_speckle(r.image.view(), r.labels.seabed.view(), completed, r.rows, ex);
         return r;
     }
     const auto channel = [&](side looks, int left, int width) {
@@ -171,7 +171,7 @@ frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex
         };
         const auto mean = part(r.image);
         const auto types = part(r.labels.seabed);
-        const auto noisy = with_speckle(mean.view(), types.view(), laws, {r.rows.first, r.rows.step, looks}, ex);
+        const auto noisy = with_speckle(mean.view(), types.view(), completed, {r.rows.first, r.rows.step, looks}, ex);
         return is_port ? mirrored(noisy) : noisy;
     };
     r.image = beside(channel(side::port, 0, port), channel(side::starboard, port, r.image.width() - port));

@@ -87,9 +87,9 @@ in::image<std::uint8_t> target_of(const in::labels& l) {
     return in::map_pixels(l.instance, [](std::uint16_t i) { return static_cast<std::uint8_t>(i != 0); });
 }
 
-/// A way to draw, to be run several times.
+/// A configuration to be run several times.
 struct candidate {
-    report::way way;
+    report::configuration configuration;
     std::function<in::frame<>()> draw;
     cost::figures cost{};
 };
@@ -97,12 +97,12 @@ struct candidate {
 template <class Shadow>
 candidate make_candidate(const in::scene& scene, const in::overhead& rig, const std::string& seabed,
                          const std::string& policy, const in::render_options<Shadow>& options) {
-    candidate c{.way = {.seabed = seabed,
-                        .policy = policy,
-                        .cells = in::overhead_geometry(rig).ground_sampling() / options.cell},
+    candidate c{.configuration = {.seabed = seabed,
+                                  .policy = policy,
+                                  .cells = in::overhead_geometry(rig).ground_sampling() / options.cell},
                 .draw = [&scene, rig, options] { return in::render(scene, rig, options); }};
     if constexpr (requires { options.shadow.texels_per_pixel; })
-        c.way.texels = static_cast<double>(options.shadow.texels_per_pixel);
+        c.configuration.texels = static_cast<double>(options.shadow.texels_per_pixel);
     return c;
 }
 
@@ -137,7 +137,7 @@ void measure_pictures(const options& o, report::contents& into) {
             });
         const auto add_named = [&](const char* title, const char* policy, const auto& how) {
             candidates.push_back(make_candidate(scene, rig, name, policy, how.options()));
-            candidates.back().way.name = title;
+            candidates.back().configuration.name = title;
         };
         add_named("fast", "exact", in::accuracy::fast(rig));
         add_named("balanced", "exact", in::accuracy::balanced(rig));
@@ -147,17 +147,18 @@ void measure_pictures(const options& o, report::contents& into) {
                 in::frame<> drawn;
                 c.cost.run([&] { drawn = c.draw(); });
                 if (run > 0) continue;
-                c.way.edge = in::accuracy::compare_masks(dark_of(drawn.labels), dark).mean_boundary_displacement();
-                c.way.intensity = in::accuracy::compare_images(drawn.image, truth.image).rmse();
+                c.configuration.edge =
+                    in::accuracy::compare_masks(dark_of(drawn.labels), dark).mean_boundary_displacement();
+                c.configuration.intensity = in::accuracy::compare_images(drawn.image, truth.image).rmse();
             }
         for (candidate& c : candidates) {
-            c.way.ms = c.cost.ms;
-            c.way.mebibytes = c.cost.mebibytes;
-            into.ways.push_back(c.way);
+            c.configuration.ms = c.cost.ms;
+            c.configuration.mebibytes = c.cost.mebibytes;
+            into.configurations.push_back(c.configuration);
         }
         into.seabeds.push_back(name);
     }
-    report::mark_front(into.ways);
+    report::mark_front(into.configurations);
 }
 
 /// A bottom without relief, with a lying cylinder and a ball.
@@ -240,7 +241,7 @@ void measure_reach(const options& o, report::contents& into) {
 
 /// Error of exact shadows from drawing the seabed as a mesh of cells: the rows of `exact` once more, as a knob.
 void list_cells(report::contents& into) {
-    for (const report::way& w : into.ways)
+    for (const report::configuration& w : into.configurations)
         if (w.policy == "exact" && w.name.empty())
             into.knobs.push_back({.name = "cells of the seabed per pixel",
                                   .oracle = "rays marched over the seabed itself",
@@ -359,7 +360,7 @@ int main(int argc, char** argv) try {
     in::write_file(o.out + "/tradeoff.md", report::page(found));
     in::write_file(o.out + "/tradeoff.svg", report::trade_chart(found));
     in::write_file(o.out + "/tradeoff_saved.svg", report::savings_chart(found));
-    for (const report::way& w : found.ways)
+    for (const report::configuration& w : found.configurations)
         if (w.on_front || !w.name.empty()) std::fputs(report::row_of(w).c_str(), stdout);
 } catch (const std::exception& error) {
     std::fprintf(stderr, "tradeoff: %s\n", error.what());

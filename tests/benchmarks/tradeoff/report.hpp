@@ -1,4 +1,4 @@
-// The trade as a page with tables, and as charts.
+// The report on speed against accuracy: a page of tables, and charts.
 #pragma once
 
 #include <algorithm>
@@ -12,32 +12,32 @@
 
 namespace report {
 
-/// A way to draw a picture of a seabed.
-struct way {
+/// One configuration of the renderer, measured on a picture of a seabed.
+struct configuration {
     std::string seabed, policy;
     double cells = 0;   ///< per pixel
     double texels = 0;  ///< per pixel, 0 where there are none
     double ms = 0, mebibytes = 0;
-    double edge = 0;        ///< pixels by which edges of shadows are displaced, on average
-    double intensity = 0;   ///< root mean square error of the linear picture
-    std::string name{};     ///< of named settings
-    bool on_front = false;  ///< nothing is both faster and closer
+    double edge = 0;        ///< mean displacement of shadow edges, pixels
+    double intensity = 0;   ///< RMSE of the linear picture
+    std::string name{};     ///< of a preset
+    bool on_front = false;  ///< Pareto front: no other is both faster and more accurate
 };
 
-/// Another knob in one of its positions.
+/// Another knob at one of its settings.
 struct knob {
     std::string name, oracle, setting{}, error{};
     double ms = 0, mebibytes = 0;
 };
 
-/// A way to cast the shadows of a mesh that the library didn't make.
-struct mesh_way {
+/// A shadow policy, measured on a foreign mesh.
+struct mesh_configuration {
     std::string mesh, policy;
     std::size_t triangles = 0;
     double texels = 0;  ///< per pixel, 0 where there are none
     double ms = 0, mebibytes = 0;
-    double wrong = 0;  ///< pixels in a million
-    double edge = 0;   ///< pixels by which edges of shadows are displaced, on average
+    double wrong = 0;  ///< pixels per million
+    double edge = 0;   ///< mean displacement of shadow edges, pixels
 };
 
 /// What the report is about.
@@ -45,27 +45,27 @@ struct contents {
     int pixels = 0;
     double grazing_degrees = 0;
     std::vector<std::string> seabeds{};
-    std::vector<way> ways{};
-    std::vector<mesh_way> mesh_ways{};
+    std::vector<configuration> configurations{};
+    std::vector<mesh_configuration> mesh_configurations{};
     std::vector<knob> knobs{};
 };
 
 inline constexpr std::array tolerances{0.25, 0.5, 1.0, 2.0, 4.0};
 
-inline void mark_front(std::vector<way>& ways) {
-    for (way& w : ways) {
+inline void mark_front(std::vector<configuration>& configurations) {
+    for (configuration& w : configurations) {
         w.on_front = true;
-        for (const way& other : ways)
+        for (const configuration& other : configurations)
             if (other.seabed == w.seabed && other.ms <= w.ms && other.edge <= w.edge &&
                 (other.ms < w.ms || other.edge < w.edge))
                 w.on_front = false;
     }
 }
 
-/// The fastest way that is no farther off than `edge`, or none.
-inline const way* cheapest(const contents& c, const std::string& seabed, double edge) {
-    const way* best = nullptr;
-    for (const way& w : c.ways)
+/// The fastest configuration whose error of shadow edges is at most `edge`, or null.
+inline const configuration* cheapest(const contents& c, const std::string& seabed, double edge) {
+    const configuration* best = nullptr;
+    for (const configuration& w : c.configurations)
         if (w.seabed == seabed && w.edge <= edge && (best == nullptr || w.ms < best->ms)) best = &w;
     return best;
 }
@@ -128,15 +128,15 @@ inline std::string names_beside(const std::vector<std::pair<std::array<double, 2
     return body;
 }
 
-/// Error against time, a panel for each seabed: every way as a dot, the front as a line, and the named settings.
+/// Time against error, one panel per seabed: configurations as dots, the Pareto front as a line, presets ringed.
 inline std::string trade_chart(const contents& c) {
     constexpr double width = 330, height = 300, left = 80, top = 64, gap = 30;
     double least = 1e30, most = 0;
-    for (const way& w : c.ways) least = std::min(least, w.ms), most = std::max(most, w.ms);
+    for (const configuration& w : c.configurations) least = std::min(least, w.ms), most = std::max(most, w.ms);
     const double low_ms = std::log10(least) - 0.05, high_ms = std::log10(most) + 0.05;
     constexpr double low_edge = -1.5, high_edge = 1.2;  // powers of ten of pixels
     std::string body = svg::text(
-        left, 24, "Processor time of a frame against the error of shadow edges: down is faster, left is closer",
+        left, 24, "CPU time of a frame against the error of shadow edges: lower is faster, left is more accurate",
         " font-size='16' font-weight='bold'");
     double x0 = left;
     for (const std::string& seabed : c.seabeds) {
@@ -159,32 +159,33 @@ inline std::string trade_chart(const contents& c) {
                                   ms < 1000 ? svg::number(ms, 0) + " ms" : svg::number(ms / 1000, 0) + " s",
                                   " text-anchor='end'");
         }
-        std::vector<const way*> front;
-        for (const way& w : c.ways) {
+        std::vector<const configuration*> front;
+        for (const configuration& w : c.configurations) {
             if (w.seabed != seabed) continue;
             if (w.on_front) front.push_back(&w);
             if (w.name.empty())
                 body += svg::circle(x(w.edge), y(w.ms), w.on_front ? 4.5 : 2.8, color_of(w.policy),
                                     w.on_front ? "" : " opacity='0.45'");
         }
-        std::sort(front.begin(), front.end(), [](const way* a, const way* b) { return a->ms < b->ms; });
+        std::sort(front.begin(), front.end(),
+                  [](const configuration* a, const configuration* b) { return a->ms < b->ms; });
         for (std::size_t i = 1; i < front.size(); ++i)
             body += svg::line(x(front[i - 1]->edge), y(front[i - 1]->ms), x(front[i]->edge), y(front[i]->ms), "#333333",
                               " stroke-width='1.5'");
         std::vector<std::pair<std::array<double, 2>, std::string>> named;
-        for (const way& w : c.ways)
+        for (const configuration& w : c.configurations)
             if (w.seabed == seabed && !w.name.empty()) named.push_back({{x(w.edge), y(w.ms)}, w.name});
         for (const auto& [at, name] : named)
             body += svg::circle(at[0], at[1], 7, "none", " stroke='#c0392b' stroke-width='2'");
         std::vector<std::array<double, 2>> line;
-        for (const way* const w : front) line.push_back({x(w->edge), y(w->ms)});
+        for (const configuration* const w : front) line.push_back({x(w->edge), y(w->ms)});
         body += names_beside(named, line);
         body += svg::text(x0 + width / 2, top + height + 38, "error of shadow edges, pixels (mean displacement)",
                           " text-anchor='middle'");
         x0 += width + gap;
     }
     body += "<text transform='translate(16 " + svg::number(top + height / 2, 0) +
-            ") rotate(-90)' text-anchor='middle'>processor time of a frame</text>\n";
+            ") rotate(-90)' text-anchor='middle'>CPU time of a frame</text>\n";
     double key = left;
     for (const std::string policy : {"exact", "map", "pcf", "none"}) {
         body += svg::circle(key, top + height + 66, 5, color_of(policy)) +
@@ -192,29 +193,29 @@ inline std::string trade_chart(const contents& c) {
         key += 110;
     }
     body += svg::line(key, top + height + 66, key + 26, top + height + 66, "#333333", " stroke-width='1.5'") +
-            svg::text(key + 34, top + height + 70, "nothing is both faster and closer") +
+            svg::text(key + 34, top + height + 70, "Pareto front") +
             svg::circle(key + 270, top + height + 66, 7, "none", " stroke='#c0392b' stroke-width='2'") +
-            svg::text(key + 284, top + height + 70, "settings with names");
+            svg::text(key + 284, top + height + 70, "presets");
     return svg::page(static_cast<int>(left + 3 * width + 2 * gap + 30), static_cast<int>(top + height + 88), body);
 }
 
-/// Distance between marks of an axis up to `end`: 1, 2 or 5 times a power of ten, at most half of it.
+/// Tick spacing of an axis from 0 to `end`: 1, 2 or 5 times a power of ten, at most half of `end`.
 inline double axis_step(double end) {
     const double ten = std::pow(10.0, std::floor(std::log10(end / 2))), lead = end / 2 / ten;
     return ten * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
 }
 
-/// Cost of the fastest way within each tolerance, as bars.
+/// CPU time of the fastest configuration within each tolerance, as bars.
 inline std::string savings_chart(const contents& c) {
     constexpr double left = 130, longest = 210, line = 26, gap = 90;
-    std::string body =
-        svg::text(20, 26, "What tolerating an error of shadow edges saves", " font-size='16' font-weight='bold'");
+    std::string body = svg::text(20, 26, "CPU time saved by tolerating an error of shadow edges",
+                                 " font-size='16' font-weight='bold'");
     double x0 = left, bottom = 0;
     for (const std::string& seabed : c.seabeds) {
         double slowest = 0, y = 74;
-        const way* reference = nullptr;
+        const configuration* reference = nullptr;
         for (const double edge : tolerances)
-            if (const way* w = cheapest(c, seabed, edge)) {
+            if (const configuration* w = cheapest(c, seabed, edge)) {
                 slowest = std::max(slowest, w->ms);
                 if (reference == nullptr) reference = w;
             }
@@ -223,9 +224,9 @@ inline std::string savings_chart(const contents& c) {
             if (x0 == left)
                 body += svg::text(x0 - 10, y + 17, "up to " + svg::number(edge, edge < 1 ? 2 : 0) + " px",
                                   " text-anchor='end'");
-            const way* const w = cheapest(c, seabed, edge);
+            const configuration* const w = cheapest(c, seabed, edge);
             if (w == nullptr) {
-                body += svg::text(x0 + 4, y + 17, "out of reach", " fill='#7a7a7a'");
+                body += svg::text(x0 + 4, y + 17, "not reached", " fill='#7a7a7a'");
             } else {
                 const double length = longest * w->ms / slowest;
                 const double saved = 100 * (1 - w->ms / reference->ms);
@@ -244,10 +245,10 @@ inline std::string savings_chart(const contents& c) {
             body += svg::line(x, bottom, x, bottom + 5, "#7a7a7a") +
                     svg::text(x, bottom + 19, svg::number(ms, ms > 0 && ms < 1 ? 1 : 0), " text-anchor='middle'");
         }
-        body += svg::text(x0 + longest / 2, bottom + 37, "processor time of a frame, ms", " text-anchor='middle'");
+        body += svg::text(x0 + longest / 2, bottom + 37, "CPU time of a frame, ms", " text-anchor='middle'");
         x0 += longest + gap + 40;
     }
-    body += svg::text(left - 10, 58, "edges off by", " text-anchor='end'");
+    body += svg::text(left - 10, 58, "edge error", " text-anchor='end'");
     return svg::page(static_cast<int>(x0), static_cast<int>(bottom + 46), body);
 }
 
@@ -255,13 +256,13 @@ inline std::string per_pixel(double value) {
     return value == 0 ? "" : value >= 1 ? svg::number(value, 0) : "1/" + svg::number(1 / value, 0);
 }
 
-inline std::string row_of(const way& w) {
+inline std::string row_of(const configuration& w) {
     return "| " + w.seabed + " | " + w.policy + (w.name.empty() ? "" : " (**" + w.name + "**)") + " | " +
            per_pixel(w.cells) + " | " + per_pixel(w.texels) + " | " + svg::number(w.ms, 1) + " | " +
            svg::number(w.mebibytes, 1) + " | " + svg::number(w.edge, 3) + " | " + svg::number(w.intensity, 4) + " |\n";
 }
 
-inline std::string row_of(const mesh_way& w) {
+inline std::string row_of(const mesh_configuration& w) {
     return "| " + w.mesh + " | " + std::to_string(w.triangles) + " | " + w.policy + " | " + per_pixel(w.texels) +
            " | " + svg::number(w.ms, 1) + " | " + svg::number(w.mebibytes, 1) + " | " + svg::number(w.wrong, 1) +
            " | " + svg::number(w.edge, 3) + " |\n";
@@ -270,44 +271,44 @@ inline std::string row_of(const mesh_way& w) {
 inline std::string page(const contents& c) {
     const std::string pixels = std::to_string(c.pixels);
     std::string text =
-        "# What an error saves\n\n"
-        "Written by `./tools/tradeoff`, which measures every knob of the trade of speed for accuracy in one run. "
+        "# Speed against accuracy\n\n"
+        "Written by `./tools/tradeoff`, which measures every knob that trades accuracy for speed in one run. "
         "Pictures\n"
         "are " +
-        pixels + " x " + pixels + " pixels under light of " + svg::number(c.grazing_degrees, 0) +
-        " degrees. Times are those for which a whole frame, everything made anew, keeps\n"
-        "one processor busy, the least of all runs; memory is what it allocates at its peak. Compare figures of one "
-        "run\n"
-        "alone.\n\n"
+        pixels + " x " + pixels + " pixels, lit at " + svg::number(c.grazing_degrees, 0) +
+        " degrees above the horizon. Times are CPU times of a whole frame with nothing\n"
+        "reused from earlier frames, the minimum over all runs; memory is the peak of what a frame allocates. Compare "
+        "figures\n"
+        "within one run only.\n\n"
         "![Time against the error of shadow edges, on three seabeds](tradeoff.svg)\n\n"
-        "An edge of a shadow is off by so many pixels: the wrong pixels of the shadow's mask over the pixels along "
-        "its\n"
-        "border (`accuracy::compare_masks`). The oracle is a ray for each pixel and one from there to the "
-        "light,\n"
-        "marched in double over the seabed at four vertices a pixel (`tests/marching.hpp`).\n\n"
-        "![What tolerating an error saves](tradeoff_saved.svg)\n\n"
-        "`accuracy::settings_for` finds the settings for a budget of one's own; `accuracy::fast`, `balanced` and "
-        "`exact` have\n"
-        "names.\n\n"
-        "## Fastest ways to draw a picture\n\n"
-        "Those for which nothing is both faster and closer, and the named settings.\n\n"
-        "| seabed | shadow | cells per pixel | texels per pixel | ms | MiB | edges off by, px | RMSE |\n"
+        "The edge error is the mean displacement of shadow edges: the wrong pixels of the shadow mask divided by the "
+        "pixels\n"
+        "along its border (`accuracy::compare_masks`). The oracle marches a ray per pixel, and another from its hit "
+        "to the light,\n"
+        "in double over the seabed at four vertices per pixel (`tests/marching.hpp`).\n\n"
+        "![CPU time saved by tolerating an error](tradeoff_saved.svg)\n\n"
+        "`accuracy::settings_for` finds the settings for an error budget; `accuracy::fast`, `balanced` and `exact` "
+        "are presets.\n\n"
+        "## Pareto front\n\n"
+        "The configurations that no other beats in both time and edge error, and the presets.\n\n"
+        "| seabed | shadow | cells per pixel | texels per pixel | ms | MiB | edge error, px | RMSE |\n"
         "|---|---|---:|---:|---:|---:|---:|---:|\n";
-    std::vector<way> sorted = c.ways;
-    std::stable_sort(sorted.begin(), sorted.end(), [](const way& a, const way& b) { return a.ms < b.ms; });
+    std::vector<configuration> sorted = c.configurations;
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const configuration& a, const configuration& b) { return a.ms < b.ms; });
     for (const std::string& seabed : c.seabeds)
-        for (const way& w : sorted)
+        for (const configuration& w : sorted)
             if (w.seabed == seabed && (w.on_front || !w.name.empty())) text += row_of(w);
     text +=
-        "\n## Meshes of other makers\n\n"
-        "Open, dense and shuffled meshes, made by code (`tests/foreign_scenes.hpp`), under light of 6 and of 33 "
-        "degrees: times and\n"
-        "errors are means of both. The oracle casts a ray in long double from the point that each pixel shows "
+        "\n## Foreign meshes\n\n"
+        "Open, dense and shuffled meshes, generated by `tests/foreign_scenes.hpp`, lit at 6 and at 33 degrees: times "
+        "and errors are\n"
+        "means of both. The oracle casts a ray in long double from the surface point that each pixel shows "
         "(`tests/shadow_oracle.hpp`);\n"
-        "`benchmark_shadow_accuracy` has more scenes, sizes and lights.\n\n"
-        "| mesh | triangles | shadow | texels per pixel | ms | MiB | wrong pixels in a million | edges off by, px |\n"
+        "`benchmark_shadow_accuracy` covers more scenes, sizes and lights.\n\n"
+        "| mesh | triangles | shadow | texels per pixel | ms | MiB | wrong pixels per million | edge error, px |\n"
         "|---|---:|---|---:|---:|---:|---:|---:|\n";
-    for (const mesh_way& w : c.mesh_ways) text += row_of(w);
+    for (const mesh_configuration& w : c.mesh_configurations) text += row_of(w);
     text +=
         "\n## One knob at a time\n\n"
         "| knob | setting | ms | MiB | error | against |\n|---|---|---:|---:|---|---|\n";
@@ -315,10 +316,10 @@ inline std::string page(const contents& c) {
         text += "| " + k.name + " | " + k.setting + " | " + svg::number(k.ms, k.ms < 10 ? 2 : 1) + " | " +
                 svg::number(k.mebibytes, 1) + " | " + k.error + " | " + k.oracle + " |\n";
     text +=
-        "\n## Every way measured\n\n"
-        "| seabed | shadow | cells per pixel | texels per pixel | ms | MiB | edges off by, px | RMSE |\n"
+        "\n## All configurations\n\n"
+        "| seabed | shadow | cells per pixel | texels per pixel | ms | MiB | edge error, px | RMSE |\n"
         "|---|---|---:|---:|---:|---:|---:|---:|\n";
-    for (const way& w : c.ways) text += row_of(w);
+    for (const configuration& w : c.configurations) text += row_of(w);
     return text;
 }
 

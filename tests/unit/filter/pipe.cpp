@@ -135,7 +135,7 @@ struct sum_downwards {
     struct pass_of_sums {
         const sum_downwards& filter;
         int x = -1, y = -1;  // of the last run
-        float sum[in::run_length];
+        float sum[in::run_length] = {};
 
         int rows_above() const { return height; }
         void row(const float*, float* to, int count, int column, int row) {

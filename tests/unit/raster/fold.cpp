@@ -49,14 +49,14 @@ TEST_CASE("The parts of a polygon cover the pixels of non-zero winding number in
         const auto points = thin_polygon(random);
         const in::detail::screen_polygon polygon(polygon_of(points), to_screen);
         in::image<int> count(screen_size, screen_size), winding(screen_size, screen_size);
-        bool runs = false;
-        polygon.for_each_part(grid, [&](std::array<int, 3> corners, const in::rect& pixels, bool is_run) {
-            runs |= is_run;
+        bool has_spans = false;
+        polygon.for_each_part(grid, [&](std::array<int, 3> corners, const in::rect& pixels, bool is_span) {
+            has_spans |= is_span;
             glm::dvec2 corner[3];
             for (std::size_t k = 0; k < 3; ++k) corner[k] = points[static_cast<std::size_t>(corners[k])];
             const oracle part(corner, screen_bits);
             for (int y = pixels.y0; y < pixels.y1; ++y)
-                for (int x = pixels.x0; x < pixels.x1; ++x) count(x, y) += is_run || part.covers(x, y) ? 1 : 0;
+                for (int x = pixels.x0; x < pixels.x1; ++x) count(x, y) += is_span || part.covers(x, y) ? 1 : 0;
         });
         for (std::size_t i = 1; i + 1 < points.size(); ++i) {
             const oracle part({points[0], points[i], points[i + 1]}, screen_bits);
@@ -64,7 +64,7 @@ TEST_CASE("The parts of a polygon cover the pixels of non-zero winding number in
                 for (int x = 0; x < screen_size; ++x)
                     if (part.covers(x, y)) winding(x, y) += part.is_clockwise() ? 1 : -1;
         }
-        folded += runs;
+        folded += has_spans;
         covered += total(count);
         for (std::size_t i = 0; i < count.size(); ++i)
             if (count.pixels()[i] != (winding.pixels()[i] * polygon.area_sign() > 0 ? 1 : 0)) FAIL("polygon " << n);
@@ -73,7 +73,7 @@ TEST_CASE("The parts of a polygon cover the pixels of non-zero winding number in
     CHECK(covered > 1000);
 }
 
-TEST_CASE("A run of a folded polygon is drawn to its ends and no further") {
+TEST_CASE("A span of a folded polygon is drawn to its ends and no further") {
     // Runs as tiles draw them: a needle cut by two planes, on a grid coarse enough to fold it, in tiles of two sizes.
     in::random_sequence random(7);
     int folded = 0;
@@ -105,7 +105,7 @@ TEST_CASE("A run of a folded polygon is drawn to its ends and no further") {
                         if (part.covers(x, y)) expected(x, y) += part.is_clockwise() ? 1 : -1;
             }
             const in::detail::screen_polygon polygon(cut, to_screen);
-            polygon.for_each_part(grid, [&](const auto&, const auto&, bool is_run) { folded += is_run; });
+            polygon.for_each_part(grid, [&](const auto&, const auto&, bool is_span) { folded += is_span; });
             for (int& winding : expected.pixels()) winding = winding * polygon.area_sign() > 0 ? 1 : 0;
         }
         for (const int tile : {8, 32}) {

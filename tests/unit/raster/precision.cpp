@@ -2,6 +2,7 @@
 #include <insonify/core/random.hpp>
 
 #include <array>
+#include <cstdint>
 #include <cstdio>
 
 #include "../../catch.hpp"
@@ -58,7 +59,20 @@ struct errors {
     }
 };
 
-/// Random triangles of the classes in which other rasterizers get depth wrong.
+/// Classes of triangles in which other rasterizers get depth wrong.
+enum class triangle_class : std::uint32_t { large, small_area, sliver, beyond_picture, needle, short_needle };
+
+struct named_class {
+    triangle_class kind;
+    const char* name;
+    int repeats;  ///< triangles that cover few pixels are drawn more often
+};
+constexpr named_class classes[] = {
+    {triangle_class::large, "large", 1},     {triangle_class::small_area, "of a few pixels", 16},
+    {triangle_class::sliver, "slivers", 16}, {triangle_class::beyond_picture, "beyond the picture", 1},
+    {triangle_class::needle, "needles", 16}, {triangle_class::short_needle, "short needles", 16}};
+
+/// Random triangles of a class.
 struct random_triangle {
     in::random_sequence random;
 
@@ -83,16 +97,21 @@ struct random_triangle {
         return {to_ndc(on_line()), to_ndc(on_line()), to_ndc(beside)};
     }
     /// @param w_ratio  of the largest to the smallest possible w
-    clip_triangle operator()(int kind, double w_ratio) {
+    clip_triangle operator()(triangle_class kind, double w_ratio) {
         const glm::dvec2 base = ndc(1), along = ndc(1);
-        const std::array<glm::dvec2, 3> needle = needle_through_centres(kind == 5 ? 12 : 1e5);
+        const std::array<glm::dvec2, 3> needle =
+            needle_through_centres(kind == triangle_class::short_needle ? 12 : 1e5);
         clip_triangle t;
         for (std::size_t i = 0; i < 3; ++i) {
-            glm::dvec2 p = ndc(1.2);                                                   // large
-            if (kind == 1) p = base + ndc(0.12);                                       // a few pixels
-            if (kind == 2) p = base + random.uniform(-1.5, 1.5) * along + ndc(0.004);  // slivers
-            if (kind == 3) p = base + ndc(40);                                         // much larger than the picture
-            if (kind >= 4) p = needle[i];
+            glm::dvec2 p = ndc(1.2);
+            switch (kind) {
+                case triangle_class::large: break;
+                case triangle_class::small_area: p = base + ndc(0.12); break;
+                case triangle_class::sliver: p = base + random.uniform(-1.5, 1.5) * along + ndc(0.004); break;
+                case triangle_class::beyond_picture: p = base + ndc(40); break;
+                case triangle_class::needle:
+                case triangle_class::short_needle: p = needle[i]; break;
+            }
             const double w = in::numeric::pow(w_ratio, random.uniform(-0.5, 0.5));
             // Reversed depth of something at distance w; or any depth, where w is constant.
             const double z = w_ratio > 1 ? 1e-6 : random.uniform();
@@ -104,23 +123,21 @@ struct random_triangle {
 };
 
 void check_precision(std::uint64_t seed, int count, bool print) {
-    static const char* const kinds[] = {"large",   "of a few pixels", "slivers", "beyond the picture",
-                                        "needles", "short needles"};
     for (const double w_ratio : {1.0, 10.0, 1e5, 1e9})  // 1e9: from a millimetre to a thousand kilometres
-        for (int kind = 0; kind < 6; ++kind) {
+        for (const auto& [kind, name, repeats] : classes) {
             random_triangle triangle{in::random_sequence(seed, static_cast<std::uint32_t>(kind))};
             errors found;
-            for (int i = 0; i < count * (kind == 1 || kind == 2 || kind >= 4 ? 16 : 1); ++i)
+            for (int i = 0; i < count * repeats; ++i)
                 found.measure(triangle(kind, w_ratio), i % 2 == 0 ? 8 : 16,
                               w_ratio > 1 ? in::keep_depth::larger : in::keep_depth::smaller, i % 3 == 0 ? 1 : 16);
-            INFO("seed " << seed << ", triangles " << kinds[kind] << ", w ratio " << w_ratio);
+            INFO("seed " << seed << ", triangles " << name << ", w ratio " << w_ratio);
             CHECK(found.samples > 500);
             CHECK(found.wrong_depths == 0);
             CHECK(found.varying <= 0.501);
             if (print)
                 std::printf(
                     "w ratio %-7g triangles %-20s %10llu pixels, %llu depths not the nearest, varying %.4f ulp\n",
-                    w_ratio, kinds[kind], static_cast<unsigned long long>(found.samples),
+                    w_ratio, name, static_cast<unsigned long long>(found.samples),
                     static_cast<unsigned long long>(found.wrong_depths), found.varying);
         }
 }

@@ -12,10 +12,12 @@
 #include <cmath>
 
 #include "../../catch.hpp"
+#include "../../single_pings.hpp"
 
 namespace in = insonify;
 namespace rg = insonify::range_geometry;
 using namespace in::literals;
+using single_pings::one_ping;
 
 namespace {
 
@@ -25,15 +27,6 @@ in::scene level_bottom() {
     in::scene s;
     s.seabed = plane;
     return s;
-}
-
-/// A single ping through the middle of the targets at y = 0.
-in::side_scan one_ping(double altitude, double range, int bins) {
-    return {.altitude = static_cast<float>(altitude),
-            .ping_spacing = 0.02f,
-            .pings = 1,
-            .range = static_cast<float>(range),
-            .bins = bins};
 }
 
 struct run {

@@ -56,10 +56,10 @@ enum class echo_draw { exponential, gamma, by_looks, rice };
 
 /// Statistics of an intensity: the three numbers of a speckle_law, by pixel.
 struct echo_statistics {
-    const char* name;       ///< of the filter's own parameter
-    parameter looks = 1;    ///< 0.01 to 1e6; 1 unless they are drawn as gamma
-    parameter texture = 0;  ///< 0: none
-    parameter steady = 0;
+    const char* name;      ///< of the filter's own parameter
+    parameter looks = 1;   ///< 0.01 to 1e6; 1 unless they are drawn as gamma
+    parameter shape = 0;   ///< of the K-distribution's texture; 0: none
+    parameter steady = 0;  ///< power of a steady echo over that of the others
 };
 
 /// Law of a noise_pass that multiplies pixels by random intensities, or by their square roots.
@@ -74,7 +74,7 @@ class echo_law {
           texture_field_(texture_noise),
           statistics_(std::move(statistics)),
           of_(of) {
-        const parameter &looks = statistics_.looks, &shape = statistics_.texture, &steady = statistics_.steady;
+        const parameter &looks = statistics_.looks, &shape = statistics_.shape, &steady = statistics_.steady;
         is_constant_ = looks.is_constant() && shape.is_constant() && steady.is_constant();
         if (is_constant_ && of == echo::amplitude) last_scale_ = scale_of(looks.value(), shape.value(), steady.value());
         std::fill_n(scale_, run_length, last_scale_);
@@ -84,7 +84,7 @@ class echo_law {
     void row(const float* from, float* to, const noise_run& run) {
         draw_buffer buffer;
         float* const intensity = draw(buffer, run);
-        texture(intensity, run);
+        apply_texture(intensity, run);
         if (of_ == echo::amplitude) {
             if (!is_constant_) mean_amplitudes(run);
             apply_rule(echo_factor<echo::amplitude>{}, from, intensity, scale_, to, run.count);
@@ -94,14 +94,14 @@ class echo_law {
     }
     int rows_above() const { return fields_.rows_above(); }
     void prepare(const pixel_area& area) {
-        for (parameter* p : {&statistics_.looks, &statistics_.texture, &statistics_.steady})
+        for (parameter* p : {&statistics_.looks, &statistics_.shape, &statistics_.steady})
             p->prepare(statistics_.name, area);
     }
 
   private:
     /// Prepares fields under which the correlation of the intensities has the given length.
     void correlate(const correlation_length& length) {
-        const parameter &looks = statistics_.looks, &shape = statistics_.texture, &steady = statistics_.steady;
+        const parameter &looks = statistics_.looks, &shape = statistics_.shape, &steady = statistics_.steady;
         const float whole = looks.is_constant() ? looks.value() : 0;
         require(whole >= 1 && whole <= 64 && whole == static_cast<float>(static_cast<int>(whole)),
                 "number of looks of correlated speckle", whole, "a whole number, 1 to 64, for all pixels");
@@ -111,8 +111,8 @@ class echo_law {
         const double texture_index = texture_ ? 1 / static_cast<double>(shape.value()) : 0;
         const double index = (1 + texture_index) * (1 + speckle_index) - 1;  // variance / mean^2 of the intensity
         const auto intensity = [&](double field) {
-            const double texture = texture_ ? texture_->correlation(field) : 0;
-            return ((1 + texture * texture_index) * (1 + speckle(field) * speckle_index) - 1) / index;
+            const double of_texture = texture_ ? texture_->correlation(field) : 0;
+            return ((1 + of_texture * texture_index) * (1 + speckle(field) * speckle_index) - 1) / index;
         };
         const auto taps = [&](float pixels) {
             return field_taps(texture_ ? field_length(static_cast<double>(pixels), intensity)
@@ -155,15 +155,15 @@ class echo_law {
         }
     }
 
-    void texture(float* intensity, const noise_run& run) {
+    void apply_texture(float* intensity, const noise_run& run) {
         if (texture_) {
             draw_buffer buffer;
             const float* const normal = texture_field_.row(buffer, 0, run);
             for (int i = 0; i < run.count; ++i) intensity[i] *= (*texture_)(normal[i]);
             return;
         }
-        const bool none = statistics_.texture.is_constant() && statistics_.texture.value() == 0;
-        if (!none) gamma(intensity, statistics_.texture, texture_noise_, run);
+        const bool none = statistics_.shape.is_constant() && statistics_.shape.value() == 0;
+        if (!none) gamma(intensity, statistics_.shape, texture_noise_, run);
     }
 
     /// Multiplies by gamma-distributed numbers of mean one where their shape is not 0.
@@ -186,15 +186,15 @@ class echo_law {
     float scale_of(float looks, float shape, float steady) const {
         const double speckle = Draw == echo_draw::rice ? mean_of_rice(static_cast<double>(steady))
                                                        : mean_root_of_gamma(static_cast<double>(looks));
-        const double relief = shape > 0 ? mean_root_of_gamma(static_cast<double>(shape)) : 1;
-        return static_cast<float>(1 / (speckle * relief));
+        const double texture = shape > 0 ? mean_root_of_gamma(static_cast<double>(shape)) : 1;
+        return static_cast<float>(1 / (speckle * texture));
     }
 
     /// Scales of a run. Adjacent pixels mostly have equal parameters, so the last scale is kept.
     void mean_amplitudes(const noise_run& run) {
         float looks[run_length], shape[run_length], steady[run_length];
         statistics_.looks.row(looks, run.count, run.x, run.y);
-        statistics_.texture.row(shape, run.count, run.x, run.y);
+        statistics_.shape.row(shape, run.count, run.x, run.y);
         statistics_.steady.row(steady, run.count, run.x, run.y);
         for (int i = 0; i < run.count; ++i) {
             const std::array<float, 3> now{looks[i], shape[i], steady[i]};

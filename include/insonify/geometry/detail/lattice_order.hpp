@@ -120,15 +120,15 @@ inline std::optional<bool> rising_diagonals(const mesh& m, const lattice_vertice
         const glm::ivec2 corner{(std::min)((std::min)(a.x, b.x), c.x), (std::min)((std::min)(a.y, b.y), c.y)};
         const glm::ivec2 ab = b - a, ac = c - a;
         if (ab.x * ac.y - ab.y * ac.x != 1) return std::nullopt;
-        // With the corners of a cell numbered x + 2 y, a triangle lacks 1 or 2 if its diagonal rises, else 0 or 3.
+        // With the corners of a cell numbered x + 2 y, a triangle lacks 1 or 2 if its diagonal is rising, else 0 or 3.
         int missing_corner = 6;
         for (const glm::ivec2& p : {a, b, c}) {
             if (p.x > corner.x + 1 || p.y > corner.y + 1) return std::nullopt;
             missing_corner -= (p.x - corner.x) + 2 * (p.y - corner.y);
         }
-        const bool rises = missing_corner == 1 || missing_corner == 2;
-        if (is_rising.value_or(rises) != rises) return std::nullopt;
-        is_rising = rises;
+        const bool is_this_rising = missing_corner == 1 || missing_corner == 2;
+        if (is_rising.value_or(is_this_rising) != is_this_rising) return std::nullopt;
+        is_rising = is_this_rising;
         const std::size_t half = 2 * v.index(corner, v.columns() - 1) + (missing_corner < 2 ? 1 : 0);
         if (found[half]) return std::nullopt;
         found[half] = true;

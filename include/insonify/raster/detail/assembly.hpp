@@ -177,14 +177,14 @@ class screen_mesh {
         if (on_screen.area_sign() == 0) return outcome::degenerate;
         if (is_culled(on_screen.area_sign() < 0)) return outcome::culled;
         outcome result = outcome::missed;
-        on_screen.for_each_part(grid_, [&](std::array<int, 3> corners, const rect& pixels, bool is_run) {
+        on_screen.for_each_part(grid_, [&](std::array<int, 3> corners, const rect& pixels, bool is_span) {
             wide_triangle part{};
             for (std::size_t k = 0; k < 3; ++k) {
                 part.corners[k] = on_screen.at(corners[k]);
                 part.weights[k] = polygon.corners[static_cast<std::size_t>(corners[k])].weights;
             }
             part.triangle = triangle;
-            if (is_run) part.run = pixels;
+            if (is_span) part.span = pixels;
             out.runs.add(compact_count_ + static_cast<std::uint32_t>(out.wide.size()), 1, tiles.touched(pixels), false);
             out.wide.push_back(part);
             result = outcome::drawn;

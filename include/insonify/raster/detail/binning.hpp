@@ -51,7 +51,7 @@ struct tile_grid {
 
     std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
     /// Tiles per call of the executor, which share one buffer; one in small pictures, so that every thread gets work.
-    std::size_t run() const { return count() < 64 ? 1 : 4; }
+    std::size_t grain() const { return count() < 64 ? 1 : 4; }
     /// The tile of a pixel.
     std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(y >> log2_size) * static_cast<std::size_t>(columns) +

@@ -1,4 +1,4 @@
-// Clipped triangles on the pixel grid, divided into triangles or runs of pixels.
+// Clipped triangles on the pixel grid, divided into triangles or spans of pixels.
 //
 // Snapping can fold a thin polygon over itself: a vertex that lands on the wrong side of an edge flips one of the
 // triangles that the polygon is divided into, and pixels beside the polygon would be hit. The winding number then
@@ -58,11 +58,11 @@ class screen_polygon {
         return center_rect(low, high, high, grid);
     }
 
-    /// Calls `part(corners, pixels, is_run)` for disjoint parts of the polygon: triangles of three of its corners; or,
-    /// if it is folded, runs of covered pixels in the plane of three of its corners.
+    /// Calls `part(corners, pixels, is_span)` for disjoint parts of the polygon: triangles of three of its corners; or,
+    /// if it is folded, spans of covered pixels in the plane of three of its corners.
     template <class Part>
     void for_each_part(const pixel_grid& grid, const Part& part) const {
-        if (turns_[0] && turns_[2]) return for_each_run(grid, part);
+        if (turns_[0] && turns_[2]) return for_each_span(grid, part);
         for (int i = 1; i + 1 < count_; ++i) {
             const rect pixels = center_rect(at(0), at(i), at(i + 1), grid);
             if (!pixels.empty() && wide_area(at(0), at(i), at(i + 1)).sign() != 0)
@@ -72,7 +72,7 @@ class screen_polygon {
 
   private:
     template <class Part>
-    void for_each_run(const pixel_grid& grid, const Part& part) const {
+    void for_each_span(const pixel_grid& grid, const Part& part) const {
         const std::array<int, 3> plane{0, largest_part_, largest_part_ + 1};
         const rect all = pixels(grid);
         for (int y = all.y0; y < all.y1; ++y) {

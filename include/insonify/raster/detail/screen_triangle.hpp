@@ -19,7 +19,7 @@ struct wide_triangle {
     std::array<screen_vertex, 3> corners;
     std::array<glm::dvec3, 3> weights;  ///< barycentric, of each corner in the mesh's triangle
     std::uint32_t triangle;
-    rect run;  ///< if not empty, exactly the pixels that it covers
+    rect span;  ///< of a folded polygon: exactly the pixels that it covers, in one row; else empty
 };
 
 /// A triangle as looked up by its id: its corners in clockwise order on the screen.
@@ -29,7 +29,7 @@ struct screen_triangle {
     std::uint32_t triangle;     ///< index into the mesh
     const wide_triangle* wide;  ///< null for a compact one
 
-    bool is_run() const { return wide != nullptr && !wide->run.empty(); }
+    bool is_span() const { return wide != nullptr && !wide->span.empty(); }
 
     /// Perspective-correct barycentric weights of the mesh triangle's vertices at a pixel's centre.
     glm::dvec3 weights_at(int x, int y, const pixel_grid& grid) const {
@@ -37,7 +37,7 @@ struct screen_triangle {
             const std::int64_t run = to.x - from.x, rise = to.y - from.y;
             const std::int64_t right = grid.center(x) - from.x, down = grid.center(y) - from.y;
             if (wide == nullptr) return static_cast<double>(compact_side(run, rise, right, down));
-            // Pixels of a run may lie just outside of the corners, where a weight would be negative.
+            // Pixels of a span may lie just outside of the corners, where a weight would be negative.
             const double weight = double_double::from(wide_side(run, rise, right, down)).high;
             return weight > 0 ? weight : 0.0;
         };

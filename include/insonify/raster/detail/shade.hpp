@@ -39,12 +39,12 @@ struct tile_triangles {
     INSONIFY_RARE triangle_setup setup(std::uint32_t id) const {
         const screen_triangle t = screen[id];
         triangle_setup s = triangle_setup::of(t.a, t.b, t.c, grid(), pixels_of(t), tile_buffer<false>::slack);
-        if (t.is_run()) s.cover_all();
+        if (t.is_span()) s.cover_all();
         return s;
     }
     /// The pixels of the tile that a triangle may cover.
     rect pixels_of(const screen_triangle& t) const {
-        return intersect(pixels, t.is_run() ? t.wide->run : center_rect(t.a, t.b, t.c, grid()));
+        return intersect(pixels, t.is_span() ? t.wide->span : center_rect(t.a, t.b, t.c, grid()));
     }
     INSONIFY_RARE float rounded_depth(std::uint32_t id, int x, int y) const {
         const screen_triangle t = screen[id];

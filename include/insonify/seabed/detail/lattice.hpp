@@ -104,15 +104,6 @@ struct lattice {
     double v(double y) const { return y * frequency + offset_y; }
 };
 
-/// Rounds a length, above 0 and finite, to eight significant bits: its multiples are exact in double, so that nodes at
-/// multiples of it are the same in every row.
-inline double rounded_to_eight_bits(double length) {
-    double unit = 1;
-    while (unit * 256 <= length) unit *= 2;
-    while (unit * 128 > length) unit /= 2;
-    return static_cast<double>(numeric::floor_to_int(length / unit + 0.5)) * unit;
-}
-
 /// A coordinate on a lattice: its cell and the fraction within it.
 struct lattice_coordinate {
     std::int64_t cell;

@@ -19,7 +19,7 @@ class grid_caster {
           to_mesh_(inverse(c.placement)),
           travel_(transform_direction(to_mesh_, -frame.to_light())),
           bounds_(mesh_, c.box, *c.grid, travel_, level, ex),
-          blocks_(bounds_.grid(), bounds_.heights(), level, ex) {}
+          macrocells_(bounds_.grid(), bounds_.heights(), level, ex) {}
 
     /// Decides points [first, last), which lie on this caster and face the light, where the horizon's bounds suffice.
     /// @param into  results, from that of point `first` on
@@ -34,12 +34,12 @@ class grid_caster {
         const glm::dvec3 at = transform_point(to_mesh_, p);
         const decision answer = bounds_.at(at);
         if (answer != decision::undecided) return answer == decision::dark;
-        return horizon_walk(bounds_, blocks_, at).is_blocked_from_surface(decide);
+        return horizon_walk(bounds_, macrocells_, at).is_blocked_from_surface(decide);
     }
     /// The same for any point.
     template <class Decide>
     bool blocks(const glm::dvec3& p, const Decide& decide) const {
-        return horizon_walk(bounds_, blocks_, transform_point(to_mesh_, p)).is_blocked_from_anywhere(decide);
+        return horizon_walk(bounds_, macrocells_, transform_point(to_mesh_, p)).is_blocked_from_anywhere(decide);
     }
 
     /// See horizon_triangles.
@@ -82,7 +82,7 @@ class grid_caster {
     affine to_mesh_;
     glm::dvec3 travel_;  ///< of the light, in the mesh's frame
     horizon_bounds bounds_;
-    block_heights blocks_;
+    macrocell_heights macrocells_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS

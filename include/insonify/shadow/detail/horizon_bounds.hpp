@@ -32,7 +32,7 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 /// Bounds of the largest u that rays of a strip meet before a column.
 struct horizon_bound {
     float dark_below;  ///< every ray of the strip meets a u of at least this
-    float lit_above;   ///< points of the column with a larger u are lit; infinity where u does not rise
+    float lit_above;   ///< points of the column with a larger u are lit; infinity where u does not increase
 };
 
 /// Computes the bounds of adjacent strips, column by column: neighbours read mostly the same heights.
@@ -51,7 +51,7 @@ struct horizon_kernel {
         bounds_so_far now;
         const auto slope = static_cast<float>(grid.slope);
         float copies[2][static_cast<unsigned>(room)];
-        std::int32_t rises[static_cast<unsigned>(room)];
+        std::int32_t is_facing[static_cast<unsigned>(room)];
         for (int x = 0; x < grid.columns; ++x) {
             // The strips' first row where they cross the column: `row` to `row + 3` surround the first strip up to the
             // next column.
@@ -64,8 +64,8 @@ struct horizon_kernel {
             }
             const float* const here = heights_from(x, row, copies[0]);
             const float* const ahead = heights_from(x + 1, row, copies[1]);
-            for (int k = 0; k < count + 2; k += N) find_rises<N>(rises + k, here + k, ahead + k, slope);
-            for (int k = 0; k < count; k += N) advance<N>(now, k, here + k, ahead + k, rises + k, of_column + k);
+            for (int k = 0; k < count + 2; k += N) find_facing<N>(is_facing + k, here + k, ahead + k, slope);
+            for (int k = 0; k < count; k += N) advance<N>(now, k, here + k, ahead + k, is_facing + k, of_column + k);
         }
     }
 
@@ -92,9 +92,9 @@ struct horizon_kernel {
         return copy;
     }
 
-    /// Masks of the cells between two columns along which u increases, or where there is no cell.
+    /// Masks of the cells between two columns that face the light, along which u increases, or where there is no cell.
     template <int N>
-    INSONIFY_INLINE void find_rises(std::int32_t* into, const float* here, const float* ahead, float slope) const {
+    INSONIFY_INLINE void find_facing(std::int32_t* into, const float* here, const float* ahead, float slope) const {
         using namespace insonify::detail;
         using ints = lanes<std::int32_t, N>;
         lanes<float, N> a, b, c, d, lower, upper;  // (0,0) (1,0) (0,1) (1,1)
@@ -117,14 +117,14 @@ struct horizon_kernel {
     /// @param of_column  where their bounds go
     template <int N>
     INSONIFY_INLINE void advance(bounds_so_far& now, int k, const float* here, const float* ahead,
-                                 const std::int32_t* rises_of, float* of_column) const {
+                                 const std::int32_t* facing_of, float* of_column) const {
         using namespace insonify::detail;
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
         floats dark_below, lit_above, lowest, highest, next;
-        ints rises;
+        ints is_facing;
         load(dark_below, now.dark_below + k), load(lit_above, now.lit_above + k);
-        load(lowest, here), load(rises, rises_of);
+        load(lowest, here), load(is_facing, facing_of);
         highest = lowest;
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             floats other;
@@ -134,8 +134,8 @@ struct horizon_kernel {
         });
         unroll<2>([&](int i) INSONIFY_INLINE_LAMBDA {
             ints other;
-            load(other, rises_of + i + 1);
-            rises = rises & other;
+            load(other, facing_of + i + 1);
+            is_facing = is_facing & other;
         });
         // Every ray of the strip meets the column between rows `row` and `row + 2`.
         dark_below = lowest > dark_below ? lowest : dark_below;
@@ -146,8 +146,8 @@ struct horizon_kernel {
             load(other, ahead + i);
             next = other > next ? other : next;
         });
-        lit_above = rises ? lit_above : floats(next > lit_above ? next : lit_above);
-        const floats stored = rises ? lit_above : floats{} + std::numeric_limits<float>::infinity();
+        lit_above = is_facing ? lit_above : floats(next > lit_above ? next : lit_above);
+        const floats stored = is_facing ? lit_above : floats{} + std::numeric_limits<float>::infinity();
         store(of_column, dark_below);
         store(of_column + strips, stored);
         store(now.dark_below + k, dark_below), store(now.lit_above + k, lit_above);
@@ -165,7 +165,7 @@ class horizon_bounds {
                    isa level, E& ex)
         : grid_(lattice, travel),
           heights_(m, box, grid_, ex),
-          beside_(2 * lattice.off + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
+          lattice_error_(2 * lattice.off + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
         const double greatest = heights_.greatest, least = heights_.least;
         const double relief = grid_.drop * (greatest - least);
         const double size = grid_.columns + grid_.drop * (std::max)(numeric::abs(greatest), numeric::abs(least));
@@ -196,11 +196,11 @@ class horizon_bounds {
         const reals x = grid_.x_of.x * dx + grid_.x_of.y * dy;
         const reals strip = grid_.y_of.x * dx + grid_.y_of.y * dy - grid_.slope * x - static_cast<double>(first_strip_);
         const bits exists = bits(x >= 0.0) & bits(x <= static_cast<double>(grid_.columns - 1)) &
-                            bits(strip >= beside_) & bits(strip < strips_ - beside_);
+                            bits(strip >= lattice_error_) & bits(strip < strips_ - lattice_error_);
         const reals u = x + grid_.drop * p[2];
         // A point close to a line of the lattice may lie in a cell beyond it.
-        const reals column = exists ? x : reals{}, ahead = exists ? x + beside_ : reals{};
-        const reals low = exists ? strip - beside_ : reals{}, high = exists ? strip + beside_ : reals{};
+        const reals column = exists ? x : reals{}, ahead = exists ? x + lattice_error_ : reals{};
+        const reals low = exists ? strip - lattice_error_ : reals{}, high = exists ? strip + lattice_error_ : reals{};
         const auto bound_at = [&](const reals& at, int k) {
             return bound(static_cast<int>(lane(at, k)), static_cast<int>(lane(low, k)),
                          static_cast<int>(lane(high, k)));
@@ -224,8 +224,8 @@ class horizon_bounds {
     const grid_heights& heights() const { return heights_; }
     /// Error bound of u, in columns.
     double margin() const { return margin_; }
-    /// Bound of a vertex's distance from its lattice point, along the light or across, in steps, with a margin.
-    double beside() const { return beside_; }
+    /// Bound of the distance of vertices from their lattice points, along the light or across, in steps, with a margin.
+    double lattice_error() const { return lattice_error_; }
     bool has_strip(int strip) const { return strip >= 0 && strip < strips_; }
     /// Strip number `strip` of a column holds the points with floor(Y - slope X) = strip + first_strip().
     int first_strip() const { return first_strip_; }
@@ -243,7 +243,7 @@ class horizon_bounds {
   private:
     lit_grid grid_;
     grid_heights heights_;
-    double beside_, margin_ = 0;
+    double lattice_error_, margin_ = 0;
     int first_strip_ = 0, strips_ = 0;
     insonify::detail::uninitialized_array<float> bounds_;
 };

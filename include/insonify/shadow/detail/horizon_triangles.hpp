@@ -96,36 +96,36 @@ class horizon_triangles {
                 decision* into) const {
         // These columns and, in each, these rows hold all points of such rays within the relief.
         const double least = horizon_.heights().least, greatest = horizon_.heights().greatest;
-        const double beside = 0x1p-8 + horizon_.margin();  // covers rounding
+        const double tolerance = 0x1p-8 + horizon_.margin();  // covers rounding
         const auto clamped = [](double at, int first, int last) {
             return static_cast<int>((std::min)((std::max)(at, static_cast<double>(first)), static_cast<double>(last)));
         };
-        const int left = clamped(lower.x - grid_.drop * greatest - beside - 1, first_column, last_column),
-                  right = clamped(upper.x - grid_.drop * least + beside + 1, first_column, last_column);
+        const int left = clamped(lower.x - grid_.drop * greatest - tolerance - 1, first_column, last_column),
+                  right = clamped(upper.x - grid_.drop * least + tolerance + 1, first_column, last_column);
         for (int x = left; x < right; ++x) {
-            const int bottom = clamped(lower.y - grid_.slope * (upper.x - x) - beside - 2, 0, grid_.rows - 1),
-                      top = clamped(upper.y - grid_.slope * (lower.x - x - 1) + beside + 2, 0, grid_.rows - 1);
+            const int bottom = clamped(lower.y - grid_.slope * (upper.x - x) - tolerance - 2, 0, grid_.rows - 1),
+                      top = clamped(upper.y - grid_.slope * (lower.x - x - 1) + tolerance + 2, 0, grid_.rows - 1);
             const float *const here = horizon_.heights().column(x), *const ahead = horizon_.heights().column(x + 1);
             for (int y = bottom; y < top; ++y) {
                 const auto low = static_cast<double>((std::min)({here[y], here[y + 1], ahead[y], ahead[y + 1]})),
                            high = static_cast<double>((std::max)({here[y], here[y + 1], ahead[y], ahead[y + 1]}));
-                if (high < lower.x - beside || low > upper.x + beside) continue;
+                if (high < lower.x - tolerance || low > upper.x + tolerance) continue;
                 into[grid_.first_triangle(x, y)] = into[grid_.first_triangle(x, y) + 1] = decision::undecided;
             }
         }
     }
 
   private:
-    /// Cells of a block, whose results stay in the cache. Along a column, what is read is contiguous; from one to the
-    /// next it is in another page, which no hardware prefetches.
+    /// Size in cells of the parts whose results stay in the cache. Along a column, what is read is contiguous; from one
+    /// to the next it is in another page, which no hardware prefetches.
     static constexpr int wide = 32, tall = 256;
 
-    /// Results for the cells of a block.
+    /// Results for the cells of a part.
     struct answers {
         std::int32_t of[wide][tall];  ///< by column, then row: of the first triangle, and of the second << 8
     };
 
-    /// The results of a block in the order of the mesh.
+    /// The results of a part in the order of the mesh.
     void write(const answers& found, int left, int bottom, int right, int top, decision* into) const {
         for (int y = bottom; y < top; ++y)
             for (int x = left; x < right; ++x) {
@@ -164,11 +164,11 @@ class horizon_triangles {
             load(b, horizon.heights().column(x + 1) + y);
             load(d, horizon.heights().column(x + 1) + y + 1);
             // The strips that the cells lie in.
-            constexpr double beside = 0x1p-8;
+            constexpr double tolerance = 0x1p-8;
             const double from = y - horizon.first_strip() - grid.slope * x;
             floats dark_below = floats{} + std::numeric_limits<float>::infinity(), lit_above = 0.0f - dark_below;
-            const int last = static_cast<int>(from + 1 + beside);
-            for (int strip = static_cast<int>(from - grid.slope - beside); strip <= last; ++strip) {
+            const int last = static_cast<int>(from + 1 + tolerance);
+            for (int strip = static_cast<int>(from - grid.slope - tolerance); strip <= last; ++strip) {
                 floats least, most;
                 load(least, horizon.dark_below(x) + strip);
                 load(most, horizon.lit_above(x) + strip);

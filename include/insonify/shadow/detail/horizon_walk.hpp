@@ -2,8 +2,8 @@
 //
 // In grid steps a ray is a straight line across cells. The surface's u (horizon_bounds.hpp) is piecewise linear along
 // it, with vertices at the edges that the line crosses, and the ray is blocked if u exceeds the point's u. The walk
-// skips blocks of cells whose largest u is below it, and ends where the bounds of the horizon decide. Where u is within
-// its error of the point's, the triangles of that column are tested in doubles.
+// skips macrocells (4 x 4 cells) whose largest u is below it, and ends where the bounds of the horizon decide.
+// Where u is within its error of the point's, the triangles of that column are tested in doubles.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
@@ -17,13 +17,13 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 
 using insonify::detail::dynamic_array;
 
-/// The largest u of square blocks of cells.
-class block_heights {
+/// The largest u of macrocells: `side` x `side` cells each.
+class macrocell_heights {
   public:
     static constexpr int side = 4;  ///< cells
 
     template <executor E>
-    block_heights(const lit_grid& grid, const grid_heights& heights, isa level, E& ex)
+    macrocell_heights(const lit_grid& grid, const grid_heights& heights, isa level, E& ex)
         : columns_((grid.columns - 2) / side + 1), rows_((grid.rows - 2) / side + 1) {
         highest_ = insonify::detail::uninitialized_array<float>(
             static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), insonify::detail::memory_of(ex));
@@ -36,24 +36,24 @@ class block_heights {
         });
     }
 
-    /// The largest u of the vertices of the cells in a column of blocks, between two rows of cells.
+    /// The largest u of the vertices of the cells in a column of macrocells, between two rows of cells.
     float highest(int column, int first_row, int last_row) const {
-        const float* const blocks = highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_;
+        const float* const macrocells = highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_;
         const int first = (std::max)(first_row / side, 0), last = (std::min)(last_row / side, rows_ - 1);
         float highest = grid_heights::nothing;
-        for (int block = first; block <= last; ++block) highest = (std::max)(highest, blocks[block]);
+        for (int i = first; i <= last; ++i) highest = (std::max)(highest, macrocells[i]);
         return highest;
     }
 
   private:
-    /// One column of blocks.
+    /// One column of macrocells.
     struct kernel {
         const lit_grid& grid;
         const grid_heights& heights;
         int first;   ///< column of vertices
         float* row;  ///< room for the largest u of each row
         float* into;
-        int blocks;
+        int macrocells;
 
         template <int N>
         INSONIFY_INLINE void run() const {
@@ -61,11 +61,11 @@ class block_heights {
             int y = 0;
             for (; y + N <= grid.rows; y += N) highest_of<N>(y, last);
             for (; y < grid.rows; ++y) highest_of<1>(y, last);
-            for (int block = 0; block < blocks; ++block) {
-                const int low = block * side, high = (std::min)(low + side, grid.rows - 1);
+            for (int macrocell = 0; macrocell < macrocells; ++macrocell) {
+                const int low = macrocell * side, high = (std::min)(low + side, grid.rows - 1);
                 float highest = row[low];
                 for (int i = low + 1; i <= high; ++i) highest = (std::max)(highest, row[i]);
-                into[block] = highest;
+                into[macrocell] = highest;
             }
         }
         template <int N>
@@ -89,14 +89,14 @@ class block_heights {
 class horizon_walk {
   public:
     /// @param p  origin of the ray, in the mesh's frame
-    horizon_walk(const horizon_bounds& horizon, const block_heights& blocks, const glm::dvec3& p)
+    horizon_walk(const horizon_bounds& horizon, const macrocell_heights& macrocells, const glm::dvec3& p)
         : horizon_(horizon),
-          blocks_(blocks),
+          macrocells_(macrocells),
           grid_(horizon.grid()),
           x_(grid_.steps(glm::dvec2(p)).x),
           w_(grid_.steps(glm::dvec2(p)).y - grid_.slope * x_),
           u_(x_ + grid_.drop * p.z),
-          beside_(horizon.beside()) {}
+          lattice_error_(horizon.lattice_error()) {}
 
     /// Whether the surface blocks the ray of a point on it, where it faces the light.
     /// @param decide  decide(triangle): test of a triangle in doubles; false for the triangle of the point
@@ -127,10 +127,11 @@ class horizon_walk {
     /// Whether the point is above the surface by more than the error of u.
     bool lies_above() const {
         const double y = row_at(x_);
-        if (!(x_ >= beside_ && x_ <= grid_.columns - 1 - beside_ && y >= beside_ && y <= grid_.rows - 1 - beside_))
+        if (!(x_ >= lattice_error_ && x_ <= grid_.columns - 1 - lattice_error_ && y >= lattice_error_ &&
+              y <= grid_.rows - 1 - lattice_error_))
             return false;
-        for (const double x : {x_ - beside_, x_ + beside_})
-            for (int row = clamped_row(y - beside_); row <= clamped_row(y + beside_); ++row)
+        for (const double x : {x_ - lattice_error_, x_ + lattice_error_})
+            for (int row = clamped_row(y - lattice_error_); row <= clamped_row(y + lattice_error_); ++row)
                 if (!(highest((std::min)(static_cast<int>(x), grid_.columns - 2), row, row) < u_ - horizon_.margin()))
                     return false;
         return true;
@@ -149,36 +150,37 @@ class horizon_walk {
     bool walk(bool is_above, const Decide& decide) const {
         const double u_lower_bound = u_ - horizon_.margin();
         const auto greatest = static_cast<double>(horizon_.heights().greatest);
-        if (!(x_ + beside_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
-        int column = static_cast<int>((std::min)(x_ + beside_, static_cast<double>(grid_.columns - 2)));
+        if (!(x_ + lattice_error_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
+        int column = static_cast<int>((std::min)(x_ + lattice_error_, static_cast<double>(grid_.columns - 2)));
         for (bool is_first = true; column >= 0; --column, is_first = false) {
             // Rows of cells that the ray crosses in this column.
             const double low = row_at(column), high = low + grid_.slope;
-            if (high < -beside_ || column + 1 + grid_.drop * greatest < u_lower_bound) return false;
+            if (high < -lattice_error_ || column + 1 + grid_.drop * greatest < u_lower_bound) return false;
             if (!is_first && is_above) {
                 const decision rest = decide_before(column);
                 if (rest != decision::undecided) return rest == decision::dark;
             }
-            if (!is_first && column % block_heights::side == block_heights::side - 1) {
-                const int before = column - (block_heights::side - 1);
-                const float highest_before = blocks_.highest(
-                    before / block_heights::side, clamped_row(row_at(before) - beside_), clamped_row(high + beside_));
+            if (!is_first && column % macrocell_heights::side == macrocell_heights::side - 1) {
+                const int before = column - (macrocell_heights::side - 1);
+                const float highest_before =
+                    macrocells_.highest(before / macrocell_heights::side, clamped_row(row_at(before) - lattice_error_),
+                                        clamped_row(high + lattice_error_));
                 if (static_cast<double>(highest_before) < u_lower_bound) {
                     column = before;
                     continue;
                 }
             }
-            if (low > grid_.rows - 1 + beside_) continue;
-            const int first_row = clamped_row(low - beside_), last_row = clamped_row(high + beside_);
+            if (low > grid_.rows - 1 + lattice_error_) continue;
+            const int first_row = clamped_row(low - lattice_error_), last_row = clamped_row(high + lattice_error_);
             if (highest(column, first_row, last_row) < u_lower_bound) continue;
             const double limit = is_above ? x_ - column : 2;
-            if (low >= beside_ && high <= grid_.rows - 1 - beside_) {
+            if (low >= lattice_error_ && high <= grid_.rows - 1 - lattice_error_) {
                 const crossing crossed = cross(column, limit);
                 if (crossed.highest < u_lower_bound) continue;
                 if (is_above && crossed.certain > u_ + horizon_.margin()) return true;
                 if (!is_above && crossed.lowest > u_ + horizon_.margin()) continue;
             } else {
-                // Close to the border, whose vertices may lie beside the lattice, the ray may leave the grid and enter
+                // Close to the border, whose vertices may lie off the lattice, the ray may leave the grid and enter
                 // it again below the surface.
                 is_above = false;
             }
@@ -192,8 +194,8 @@ class horizon_walk {
 
     /// Decides by the bounds of a column, once the ray has been followed down to it.
     decision decide_before(int column) const {
-        const int strip = static_cast<int>(w_ - beside_ - horizon_.first_strip()),
-                  next = static_cast<int>(w_ + beside_ - horizon_.first_strip());
+        const int strip = static_cast<int>(w_ - lattice_error_ - horizon_.first_strip()),
+                  next = static_cast<int>(w_ + lattice_error_ - horizon_.first_strip());
         if (!horizon_.has_strip(strip) || !horizon_.has_strip(next)) return decision::undecided;
         const horizon_bound b = horizon_.bound(column, strip, next);
         if (u_ < static_cast<double>(b.dark_below) - horizon_.margin()) return decision::dark;
@@ -213,11 +215,11 @@ class horizon_walk {
         crossing found;
         // An edge is crossed a share s of the column from its beginning, a share t along it.
         const auto add = [&](double s, double first, double last, double t) {
-            if (s > limit + beside_) return;
+            if (s > limit + lattice_error_) return;
             const double u = first + t * (last - first);
             found.lowest = (std::min)(found.lowest, u);
             found.highest = (std::max)(found.highest, u);
-            if (s <= limit - beside_) found.certain = (std::max)(found.certain, u);
+            if (s <= limit - lattice_error_) found.certain = (std::max)(found.certain, u);
         };
         const double start = low - row, end = start + slope, up = (1 - start) / slope;
         const bool stays = end <= 1;
@@ -239,10 +241,10 @@ class horizon_walk {
     }
 
     const horizon_bounds& horizon_;
-    const block_heights& blocks_;
+    const macrocell_heights& macrocells_;
     const lit_grid& grid_;
     double x_, w_, u_;
-    double beside_;
+    double lattice_error_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS

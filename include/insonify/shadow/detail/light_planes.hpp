@@ -1,7 +1,7 @@
 // The planes onto which casters and points are projected along a light's rays.
 //
 // Parallel light has one plane, the datum in the light's sheared frame (light.hpp). Light from a point has six, the
-// sides of a cube around it, each seen in perspective. On a plane every ray is one point (u, v), triangles stay
+// faces of a cube around it, each seen in perspective. On a plane every ray is one point (u, v), triangles stay
 // triangles, and of two points of a ray the one with the larger height is nearer to the light.
 #pragma once
 
@@ -26,11 +26,11 @@ class light_plane {
         : rows_{{frame.travel().x, frame.travel().y, frame.cot_elevation()},
                 {-frame.travel().y, frame.travel().x, 0},
                 {0, 0, 1}} {}
-    /// @param side  0 to 5: along +x, -x, +y, -y, +z, -z of the light
-    light_plane(const point_light& light, int side) : origin_(light.position), is_near_(true) {
-        const int axis = side / 2;
+    /// @param face  0 to 5: along +x, -x, +y, -y, +z, -z of the light
+    light_plane(const point_light& light, int face) : origin_(light.position), is_near_(true) {
+        const int axis = face / 2;
         rows_[0][(axis + 1) % 3] = rows_[1][(axis + 2) % 3] = 1;
-        rows_[2][axis] = side % 2 == 0 ? 1 : -1;
+        rows_[2][axis] = face % 2 == 0 ? 1 : -1;
     }
 
     bool is_near() const { return is_near_; }
@@ -48,11 +48,10 @@ class light_plane {
         return {before.x / before.z, before.y / before.z, 1 / before.z};
     }
 
-    /// Number of the plane of a point light over which a point lies.
-    static int side_of(const point_light& light, const glm::dvec3& p) {
+    /// Number of the cube's face, seen from a point light, that a point lies over.
+    static int face_of(const point_light& light, const glm::dvec3& p) {
         const glm::dvec3 d = p - light.position;
-        const glm::dvec3 size{numeric::abs(d.x), numeric::abs(d.y), numeric::abs(d.z)};
-        const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+        const int axis = numeric::dominant_axis(d);
         return 2 * axis + (d[axis] < 0 ? 1 : 0);
     }
 

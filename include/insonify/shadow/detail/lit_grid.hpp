@@ -104,7 +104,7 @@ struct grid_heights {
           u(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(pitch), insonify::detail::memory_of(ex)),
           least(bounds.lower.z),
           greatest(bounds.upper.z) {
-        // In square blocks, so that both reads and writes are contiguous.
+        // In squares of vertices, so that both reads and writes are contiguous.
         constexpr int square = 64;
         const auto drop = static_cast<float>(grid.drop);
         bulk_ranges(ex, static_cast<std::size_t>(grid.columns), square, [&](std::size_t from, std::size_t to) {

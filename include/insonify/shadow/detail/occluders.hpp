@@ -43,8 +43,8 @@ struct alignas(16) plane_vertex {
     float u, v, height;
     float state;  ///< 0, or one of the following
 
-    static constexpr float behind = 1;  ///< on the other side of a near light
-    static constexpr float beside = 2;  ///< too near to the plane of the light to have a direction
+    static constexpr float behind = 1;    ///< on the other side of a near light
+    static constexpr float too_near = 2;  ///< at a depth from 0 to min_depth: it has no direction
     static constexpr float not_finite = 3;
 };
 
@@ -77,7 +77,7 @@ struct plane_vertices_kernel {
             return;
         }
         if (plane.is_near() && !(p.z >= min_depth)) {
-            vertices[i] = {0, 0, 0, p.z < 0 ? plane_vertex::behind : plane_vertex::beside};
+            vertices[i] = {0, 0, 0, p.z < 0 ? plane_vertex::behind : plane_vertex::too_near};
             return;
         }
         const glm::dvec3 seen = plane.is_near() ? light_plane::seen(p) : p;

@@ -2,7 +2,7 @@
 // receivers themselves.
 //
 // Each triangle is compared with the receivers of the cells that it touches, several at a time, in float. Results
-// within the error of float are decided in double (blocking.hpp), so that every pair of triangle and receiver has the
+// within the error of float are decided in double (light_rays.hpp), so that every pair of triangle and receiver has the
 // result of the test in double. A receiver's own triangle is skipped by its index; there is no bias.
 //
 // Based on: Timo Aila, Samuli Laine. Alias-Free Shadow Maps. EGSR 2004. Gregory S. Johnson, Juhyun Lee, Christopher A.

@@ -66,8 +66,8 @@ struct tiled_plane {
     static int clamped(double at, int count) { return static_cast<int>((std::min)((std::max)(0.0, at), count - 1.0)); }
 };
 
-/// All planes of one light, with their tiles numbered consecutively: one plane for parallel light, or the six sides of
-/// a cube around a point light. Sides that no point lies over have no casters and no tiles.
+/// All planes of one light, with their tiles numbered consecutively: one plane for parallel light, or the six faces of
+/// a cube around a point light. Faces that no point lies over have no casters and no tiles.
 class tiled_planes {
   public:
     explicit tiled_planes(const any_light& light) {
@@ -97,12 +97,12 @@ class tiled_planes {
         std::uint32_t occupant;    ///< of the tile
     };
     place of(const glm::dvec3& p) const {
-        const auto side = static_cast<std::size_t>(near_light_ ? light_plane::side_of(*near_light_, p) : 0);
-        const tiled_plane& on = planes_[side];
+        const auto face = static_cast<std::size_t>(near_light_ ? light_plane::face_of(*near_light_, p) : 0);
+        const tiled_plane& on = planes_[face];
         if (on.casters.empty()) return {};
         const glm::dvec3 before = on.plane(p), seen = near_light_ ? light_plane::seen(before) : before;
         const std::size_t tile = on.tile_of(seen);
-        return {&on, seen, starts_[side] + tile, on.occupant[tile]};
+        return {&on, seen, starts_[face] + tile, on.occupant[tile]};
     }
 
   private:

@@ -29,10 +29,10 @@ inline ground_rect casting_ground(const ground_rect& points, const seabed::heigh
     const double relief = range.highest - range.lowest;
     if (!(relief > 0)) return all;
     const auto* const from_nearby = std::get_if<shadow::point_light>(&light);
-    const auto light_at = [&](const glm::dvec2& beside) {  // a position if it is near, else a direction
-        if (from_nearby != nullptr) return shadow::point_of_disc(from_nearby->position, beside);
+    const auto light_at = [&](const glm::dvec2& disc_offset) {  // a position if it is near, else a direction
+        if (from_nearby != nullptr) return shadow::point_of_disc(from_nearby->position, disc_offset);
         const shadow::light_frame frame(std::get<shadow::directional_light>(light));
-        return shadow::toward_disc(frame.to_light(), frame.travel(), beside);
+        return shadow::toward_disc(frame.to_light(), frame.travel(), disc_offset);
     };
     const auto clamped = [&](double way) { return (std::max)(-longest, (std::min)(longest, way)); };
     for (const double across : {-radius, radius})

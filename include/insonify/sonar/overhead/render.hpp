@@ -51,21 +51,21 @@ class overhead_painter {
     frame<Labels> paint(executor_ref ex) {
         if constexpr (casts) {
             dynamic_array<shadow::caster> casters;
-            for (const surface& t : targets()) casters.push_back(as_caster(view_, t.placed));
-            if (has_bottom()) casters.push_back(as_caster(view_, surfaces_.front().placed));
+            for (const drawn_object& t : targets()) casters.push_back(as_caster(view_, t.placed));
+            if (has_bottom()) casters.push_back(as_caster(view_, objects_.front().placed));
             const shadow::point_bounds bounds{receivers(), view_.ground_sampling(), options_.level};
             const auto occlusion =
                 options_.shadow.build(std::span<const shadow::caster>(casters), view_.light_source(), bounds, ex);
             const auto known = decide_triangles(occlusion, ex);
             draw_all(ex);
-            shadow_pass<Labels>(view_, surfaces_, {undecided_, out_.image, out_.labels}, targets().size(),
-                                options_.tile, options_.level)
+            shadow_pass<Labels>(view_, objects_, {undecided_, out_.image, out_.labels}, targets().size(), options_.tile,
+                                options_.level)
                 .cast(occlusion, ex);
         } else {
             draw_all(ex);
         }
         if constexpr (labelled) {
-            label_surfaces(ex);
+            label_objects(ex);
             measure_targets(out_.labels);
         }
         return std::move(out_);
@@ -78,7 +78,7 @@ class overhead_painter {
         for (std::size_t i = 0; i < shown.triangle.size(); ++i) {
             std::uint32_t& id = shown.triangle.pixels()[i];
             if (id == visibility::no_triangle) continue;
-            const surface& s = surface_of(surfaces_, id);
+            const drawn_object& s = object_of(objects_, id);
             shown.instance.pixels()[i] = s.instance;
             id -= s.first_id;
         }
@@ -90,20 +90,20 @@ class overhead_painter {
     static constexpr bool casts = !std::is_same_v<Shadow, shadow::none>;
 
     bool has_bottom() const { return !scene_.seabed.empty(); }
-    std::span<const surface> targets() const {
-        return {surfaces_.data() + (has_bottom() ? 1 : 0), scene_.targets.size()};
+    std::span<const drawn_object> targets() const {
+        return {objects_.data() + (has_bottom() ? 1 : 0), scene_.targets.size()};
     }
 
     /// @param caster  targets are numbered from 0 on, the seabed follows
     void add(const placed_mesh& placed, std::size_t caster, std::uint16_t instance, std::uint8_t seabed,
              const material& m) {
-        const std::uint64_t first = surfaces_.empty() ? 0
-                                                      : std::uint64_t{surfaces_.back().first_id} +
-                                                            surfaces_.back().placed.shape.triangles.size();
+        const std::uint64_t first =
+            objects_.empty() ? 0
+                             : std::uint64_t{objects_.back().first_id} + objects_.back().placed.shape.triangles.size();
         const std::uint64_t end = first + placed.shape.triangles.size();
         require(end < shadow::invalid_id, "triangles of the scene", end, "below 2^32 - 1");
-        surfaces_.push_back({});
-        surface& s = surfaces_.back();
+        objects_.push_back({});
+        drawn_object& s = objects_.back();
         s.placed = placed;
         s.first_id = static_cast<std::uint32_t>(first);
         s.caster = static_cast<std::uint32_t>(caster);
@@ -138,8 +138,8 @@ class overhead_painter {
         add(bottom_.placed_under(view_), scene_.targets.size(), labels::no_instance,
             static_cast<std::uint8_t>(field.fallback), materials_[seabed::index_of(field.fallback)]);
         if (field.types.empty()) return;
-        surfaces_.back().types = field.types.pixels().data();
-        surfaces_.back().materials = materials_.data();
+        objects_.back().types = field.types.pixels().data();
+        objects_.back().materials = materials_.data();
     }
 
     /// A box around everything that the picture may show.
@@ -149,7 +149,7 @@ class overhead_painter {
             low = (std::numeric_limits<double>::max)();
             top = -low;
         }
-        for (const surface& t : targets())
+        for (const drawn_object& t : targets())
             for (int corner = 0; corner < 8 && !t.placed.box.empty(); ++corner) {
                 const double z = transform_point(t.placed.to_rig, t.placed.box.corner(corner)).z;
                 top = (std::max)(top, z);
@@ -160,12 +160,12 @@ class overhead_painter {
         return {{-half, low}, {half, top}};
     }
 
-    /// Decides whole triangles before they are drawn, lit or dark. The surfaces point to the results.
+    /// Decides whole triangles before they are drawn, lit or dark. The objects point to the results.
     template <class Occlusion>
     dynamic_array<uninitialized_array<shadow::decision>> decide_triangles(const Occlusion& occlusion, executor_ref ex) {
         dynamic_array<uninitialized_array<shadow::decision>> known;
         if constexpr (shadow::triangle_occlusion<Occlusion>)
-            for (surface& s : surfaces_) {
+            for (drawn_object& s : objects_) {
                 // A mesh much finer than the picture has more triangles than points to test.
                 if (s.placed.shape.triangles.size() > 2 * out_.image.size()) continue;
                 known.push_back(occlusion.decide_triangles(s.caster, view_.eye(), ex));
@@ -182,7 +182,7 @@ class overhead_painter {
                 .level = options_.level};
     }
 
-    /// Draws all surfaces: light where it is decided, and the visibility buffer.
+    /// Draws all objects: light where it is decided, and the visibility buffer.
     void draw_all(executor_ref ex) {
         const overhead& rig = view_.rig();
         image<float> depth(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
@@ -198,27 +198,27 @@ class overhead_painter {
             into.ids = &ids_;
         }
         if constexpr (labelled) into.types = &out_.labels.seabed;
-        if (surfaces_.empty()) into.clear({0, 0, rig.size.x, rig.size.y});
-        for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-            const placed_mesh& placed = surfaces_[i].placed;
+        if (objects_.empty()) into.clear({0, 0, rig.size.x, rig.size.y});
+        for (std::size_t i = 0; i < objects_.size(); ++i) {
+            const placed_mesh& placed = objects_[i].placed;
             const draw_stats stats =
                 draw(placed.shape, surface_vertex_shader(view_, placed),
-                     surface_shader<Law>(view_, surfaces_[i], options_.law, into), framebuffer<void>{depth},
+                     surface_shader<Law>(view_, objects_[i], options_.law, into), framebuffer<void>{depth},
                      draw_options_of(i == 0 ? depth_load::clear : depth_load::keep), ex);
             (has_bottom() && i == 0 ? out_.stats.seabed : out_.stats.targets) += stats;
         }
     }
 
     /// Labels instances and seabed types from the visibility buffer.
-    void label_surfaces(executor_ref ex) {
-        if (surfaces_.empty()) return;
+    void label_objects(executor_ref ex) {
+        if (objects_.empty()) return;
         ex.bulk(static_cast<std::size_t>(ids_.height()), [&](std::size_t row) {
             const int y = static_cast<int>(row);
-            const surface* last = surfaces_.data();
+            const drawn_object* last = objects_.data();
             for (int x = 0; x < ids_.width(); ++x) {
                 const std::uint32_t id = ids_(x, y);
                 if (id == shadow::invalid_id) continue;
-                if (id - last->first_id >= last->placed.shape.triangles.size()) last = &surface_of(surfaces_, id);
+                if (id - last->first_id >= last->placed.shape.triangles.size()) last = &object_of(objects_, id);
                 out_.labels.instance(x, y) = last->instance;
                 if (last->types == nullptr) out_.labels.seabed(x, y) = last->seabed;
             }
@@ -229,11 +229,11 @@ class overhead_painter {
     bottom_materials materials_;  ///< by seabed::type
     overhead_geometry view_;
     render_options<Shadow, Labels, Law, Depth> options_;
-    image<std::uint32_t> ids_;  ///< the visibility buffer; triangles are numbered in the order of surfaces_
+    image<std::uint32_t> ids_;  ///< the visibility buffer; triangles are numbered in the order of objects_
     undecided_light undecided_;
     frame<Labels> out_;
     sampled_bottom bottom_;
-    dynamic_array<surface> surfaces_;  ///< the seabed, if there is one, and the targets, as they are drawn
+    dynamic_array<drawn_object> objects_;  ///< the seabed, if there is one, and the targets, as they are drawn
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS

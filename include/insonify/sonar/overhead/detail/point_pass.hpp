@@ -46,7 +46,7 @@ struct shown_pixel {
 
 /// Finds the points of some pixels of one object.
 struct point_kernel {
-    const surface& object;
+    const drawn_object& object;
     const view_from_object& from;
     std::span<const shown_pixel> pixels;
     bool has_near_light;

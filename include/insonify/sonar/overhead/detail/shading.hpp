@@ -64,8 +64,8 @@ struct surface_vertex_shader {
     }
 };
 
-/// The bottom or a target, for the passes over the picture.
-struct surface {
+/// The bottom or a target as it is drawn, for the passes over the picture.
+struct drawn_object {
     placed_mesh placed;
     std::uint32_t first_id = 0;               ///< of its triangles in the visibility buffer
     std::uint32_t caster = 0;                 ///< index into the casters
@@ -74,7 +74,7 @@ struct surface {
     material whole;                           ///< if there are no types
     const seabed::type* types = nullptr;      ///< by vertex, of a bottom of several types
     const material* materials = nullptr;      ///< by type
-    std::uint16_t self_shadow_label = 0;      ///< label in labels::shadow where the surface shades itself
+    std::uint16_t self_shadow_label = 0;      ///< label in labels::shadow where the object shades itself
     const shadow::decision* known = nullptr;  ///< lit, dark or undecided, by triangle; null if none is decided
 };
 
@@ -96,11 +96,11 @@ struct shaded_images {
     }
 };
 
-/// Fragment shader over lanes of one surface.
+/// Fragment shader over lanes of one object.
 template <class Law>
 class surface_shader {
   public:
-    surface_shader(const overhead_geometry& view, const surface& object, const Law& law, const shaded_images& into)
+    surface_shader(const overhead_geometry& view, const drawn_object& object, const Law& law, const shaded_images& into)
         : object_(object),
           into_(into),
           law_(law),
@@ -246,7 +246,7 @@ class surface_shader {
             gather<N>(into, [&](int k) { return static_cast<float>(law_(lane(sine, k))); });
     }
 
-    const surface& object_;
+    const drawn_object& object_;
     shaded_images into_;
     Law law_;
     bool is_near_;

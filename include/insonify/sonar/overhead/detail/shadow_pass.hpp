@@ -22,9 +22,9 @@ inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// The object that a visibility buffer's id belongs to.
-inline const surface& surface_of(const dynamic_array<surface>& surfaces, std::uint32_t id) {
-    const auto after = std::upper_bound(surfaces.begin(), surfaces.end(), id,
-                                        [](std::uint32_t i, const surface& s) { return i < s.first_id; });
+inline const drawn_object& object_of(const dynamic_array<drawn_object>& objects, std::uint32_t id) {
+    const auto after = std::upper_bound(objects.begin(), objects.end(), id,
+                                        [](std::uint32_t i, const drawn_object& s) { return i < s.first_id; });
     return *(after - 1);
 }
 
@@ -39,17 +39,17 @@ class shadow_pass {
     };
 
     /// @param targets  casters numbered below this are targets
-    shadow_pass(const overhead_geometry& view, const dynamic_array<surface>& surfaces, const images& of,
+    shadow_pass(const overhead_geometry& view, const dynamic_array<drawn_object>& objects, const images& of,
                 std::size_t targets, int tile, isa level)
         : view_(view),
-          surfaces_(surfaces),
+          objects_(objects),
           images_(of),
           targets_(static_cast<std::uint32_t>(targets)),
           tiles_(of.picture.width(), of.picture.height(), std::countr_zero(static_cast<unsigned>(tile))),
           tile_pixels_(static_cast<std::size_t>(tile) * static_cast<std::size_t>(tile)),
-          run_((std::min)(tiles_.run(), shadow::max_batch / tile_pixels_)),
+          grain_((std::min)(tiles_.grain(), shadow::max_batch / tile_pixels_)),
           level_(level) {
-        for (const surface& s : surfaces) frames_.push_back({view, s.placed.to_rig});
+        for (const drawn_object& s : objects) frames_.push_back({view, s.placed.to_rig});
     }
 
     /// Tests the points of every tile and adds the light that arrives. Occlusion that sees all points at once gets
@@ -58,8 +58,8 @@ class shadow_pass {
     void cast(const Occlusion& occlusion, E& ex) {
         constexpr bool is_collective = shadow::collective_occlusion<Occlusion>;
         dynamic_array<std::size_t> undecided(is_collective ? tiles_.count() : 0);  // points of each tile
-        bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
-            scratch room(surfaces_.size(), tile_pixels_);
+        bulk_ranges(ex, tiles_.count(), grain_, [&](std::size_t first, std::size_t last) {
+            scratch room(objects_.size(), tile_pixels_);
             for (std::size_t i = first; i < last; ++i) {
                 point_list points(room.points, 0, tile_pixels_);
                 find_points(i, room.shown, points);
@@ -80,31 +80,31 @@ class shadow_pass {
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
 
-    using shown_by_surface = dynamic_array<dynamic_array<shown_pixel>>;
+    using shown_by_object = dynamic_array<dynamic_array<shown_pixel>>;
     /// Memory that the tiles of a run share.
     struct scratch {
         point_batch points;
         light_arrays light;
-        shown_by_surface shown;
+        shown_by_object shown;
 
-        scratch(std::size_t surfaces, std::size_t pixels) : points(pixels), light(pixels), shown(surfaces) {}
+        scratch(std::size_t objects, std::size_t pixels) : points(pixels), light(pixels), shown(objects) {}
     };
 
     rect pixels_of(std::size_t tile) const {
         return tiles_.pixels(tile, images_.picture.width(), images_.picture.height());
     }
     /// The points of a tile whose light is undecided.
-    void find_points(std::size_t tile, shown_by_surface& shown, point_list& into) {
-        const surface* last = surfaces_.data();
+    void find_points(std::size_t tile, shown_by_object& shown, point_list& into) {
+        const drawn_object* last = objects_.data();
         images_.undecided.take(tile, [&](const undecided_pixel& p) {
-            if (p.id - last->first_id >= last->placed.shape.triangles.size()) last = &surface_of(surfaces_, p.id);
-            shown[static_cast<std::size_t>(last - surfaces_.data())].push_back(
+            if (p.id - last->first_id >= last->placed.shape.triangles.size()) last = &object_of(objects_, p.id);
+            shown[static_cast<std::size_t>(last - objects_.data())].push_back(
                 {p.column, p.row, p.id - last->first_id, p.direct});
         });
         const rect pixels = pixels_of(tile);
         for (std::size_t i = 0; i < frames_.size(); ++i) {
             if (shown[i].empty()) continue;
-            dispatch(point_kernel{surfaces_[i], frames_[i], shown[i], view_.has_near_light(), labelled, pixels,
+            dispatch(point_kernel{objects_[i], frames_[i], shown[i], view_.has_near_light(), labelled, pixels,
                                   static_cast<std::uint32_t>(images_.picture.width()), into},
                      level_);
             shown[i].clear();
@@ -132,7 +132,7 @@ class shadow_pass {
     void test_together(const Occlusion& occlusion, const dynamic_array<std::size_t>& undecided, E& ex) {
         // Tiles share a list, and more of them in large pictures, so that batches stay within their number: a list has
         // up to two.
-        const std::size_t tiles_per_list = (std::max)(run_, tiles_.count() / (shadow::max_batches / 2) + 1);
+        const std::size_t tiles_per_list = (std::max)(grain_, tiles_.count() / (shadow::max_batches / 2) + 1);
         dynamic_array<std::size_t> starts{0};  // of the points of each list
         for (std::size_t i = 0; i < tiles_.count(); ++i) {
             if (i % tiles_per_list == 0) starts.push_back(starts.back());
@@ -143,7 +143,7 @@ class shadow_pass {
         dynamic_array<point_list> lists;
         for (std::size_t i = 0; i + 1 < starts.size(); ++i) lists.push_back({all, starts[i], starts[i + 1]});
         bulk_ranges(ex, tiles_.count(), tiles_per_list, [&](std::size_t first, std::size_t last) {
-            shown_by_surface shown(surfaces_.size());
+            shown_by_object shown(objects_.size());
             for (std::size_t i = first; i < last; ++i)
                 if (undecided[i] > 0) find_points(i, shown, lists[first / tiles_per_list]);
         });
@@ -183,13 +183,13 @@ class shadow_pass {
     }
 
     const overhead_geometry& view_;
-    const dynamic_array<surface>& surfaces_;
-    dynamic_array<view_from_object> frames_;  ///< of the surfaces
+    const dynamic_array<drawn_object>& objects_;
+    dynamic_array<view_from_object> frames_;  ///< of the objects
     images images_;
     std::uint32_t targets_;
     tile_grid tiles_;
     std::size_t tile_pixels_;
-    std::size_t run_;  ///< tiles of a batch
+    std::size_t grain_;  ///< tiles of a batch
     isa level_;
 };
 

@@ -54,7 +54,7 @@ class pixel_marks {
 /// A pixel whose light is undecided, of one tile.
 struct undecided_pixel {
     std::uint16_t column, row;  ///< within the tile
-    std::uint32_t id;           ///< of its triangle, counted over all surfaces
+    std::uint32_t id;           ///< of its triangle, counted over all objects
     float direct;               ///< light that the source adds if nothing blocks it
 };
 

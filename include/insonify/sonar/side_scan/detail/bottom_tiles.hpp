@@ -41,7 +41,7 @@ class bottom_tiles {
     /// Rounds a length so that its multiples are exact: a vertex has the same coordinates in every row.
     static double even(double length) {
         require(length > 1e-9 && length < 1e9, "cell", length, "metres above 0");
-        return seabed::detail::rounded_to_eight_bits(length);
+        return numeric::rounded_to_eight_bits(length);
     }
 
     /// Samples the seabed below some pings, and discards all other tiles.

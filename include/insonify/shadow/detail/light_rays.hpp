@@ -1,4 +1,5 @@
-// Whether a triangle blocks the light of a point, decided in doubles: the reference that every faster test reproduces.
+// Rays from points to a light, and whether a triangle blocks them, decided in doubles: the reference that every faster
+// test reproduces.
 //
 // A triangle blocks a point's ray towards the light if the ray crosses it, edges included, and the point lies behind
 // its plane by more than the rounding error, 2^-40 of the scene's size. There is no bias. Vertices are sheared so that
@@ -46,8 +47,7 @@ class light_rays {
         const glm::dvec3 to_light = toward(from), a = corner_a - from, b = corner_b - from, c = corner_c - from;
         // Corners sheared along the ray, in the two axes of its smaller components. A corner that triangles share is
         // rounded alike for each.
-        const glm::dvec3 way{numeric::abs(to_light.x), numeric::abs(to_light.y), numeric::abs(to_light.z)};
-        const int axis = way.x >= way.y ? (way.x >= way.z ? 0 : 2) : (way.y >= way.z ? 1 : 2);
+        const int axis = numeric::dominant_axis(to_light);
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
         const double shear_u = to_light[u] / to_light[axis], shear_v = to_light[v] / to_light[axis];
         const auto across = [&](const glm::dvec3& p) {
