@@ -2376,7 +2376,7 @@ class random_sequence {
 
     /// Uniform in (0, 1).
     double uniform() { return uniform_open(word()); }
-    /// Uniform in (low, high).
+    /// Uniform between low and high, which rounding may reach.
     double uniform(double low, double high) { return low + (high - low) * uniform(); }
     /// Uniform over 0 ... count - 1; the bias is below count / 2^32.
     /// @throws invalid_input for count = 0
@@ -3485,10 +3485,13 @@ class correlated_draws {
         for (std::size_t i = 0; i < strips_.size(); ++i) {
             last_ = last_ + 1 < strips_.size() ? last_ + 1 : 0;
             strip& s = strips_[last_];
-            if (s.field != field || s.channel != run.channel) continue;
-            if (s.x != run.x || s.count != run.count) s.x = run.x, s.count = run.count, s.filled = false;
-            return s;
+            if (s.x == run.x && s.count == run.count && s.field == field && s.channel == run.channel) return s;
         }
+        for (strip& s : strips_)
+            if (s.field == field && s.channel == run.channel && s.y > run.y) {  // of a column that is finished
+                s.x = run.x, s.count = run.count, s.filled = false;
+                return s;
+            }
         last_ = strips_.size();
         strips_.push_back({field, run.channel, run.x, run.count, 0, false,
                            dynamic_array<float>((2 * taps_y_.size() - 1) * run_length)});
@@ -5410,6 +5413,7 @@ class masked_pass {
         x_ = area.x, y_ = area.y;
         prepare_pass(pass_, area);
     }
+    int rows_above() const { return detail::rows_above(pass_); }
 
   private:
     Pass pass_;
@@ -7451,6 +7455,8 @@ class replacement_file {
   public:
     /// @throws io_error if no file can be created in the folder of `path`, or `path` is a device, a pipe or a folder
     explicit replacement_file(std::string path) : path_(std::move(path)) {
+        if (path_.find('\0') != std::string::npos)
+            detail::raise_io(path_.c_str(), "can't open for writing: a zero byte in its name");
         if (detail::is_special(path_)) detail::raise_io(path_, "can't open for writing: not a regular file");
         const std::size_t separator = path_.find_last_of("/\\") + 1;  // 0 without a folder
         const std::string shortened = path_.substr(0, separator + 240);
@@ -26393,11 +26399,12 @@ frame<Labels> upside_down(frame<Labels> r) {
 ///
 /// `beside(turned(port.image), starboard.image, gap)` of two overhead frames, the first with its yaw half a turn
 /// further, is the paper's stitched picture; its dead zone is the gap.
-/// @throws invalid_input for pictures of different heights, or a negative gap
+/// @throws invalid_input for pictures of different heights, a negative gap or one that leaves no room for the columns
 template <class T>
 image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill = T{}) {
     detail::require(left.height() == right.height(), "right.height()", right.height(), "that of the left picture");
-    detail::require(gap >= 0, "gap", gap, "at least 0");
+    const std::int64_t widest = (std::numeric_limits<int>::max)() - std::int64_t{left.width()} - right.width();
+    detail::require_range("gap", std::int64_t{gap}, 0, widest, "0 to 2^31 - 1, with both pictures");
     image<T> out(left.width() + gap + right.width(), left.height(), fill);
     for (int y = 0; y < left.height(); ++y) {
         std::copy(left.row(y).begin(), left.row(y).end(), out.row(y).begin());
@@ -26676,6 +26683,8 @@ INSONIFY_FUNCTION image<float> speckled(image_view<const float> mean, image_view
     require(types.width() == mean.width(), "types.width()", types.width(), "that of the intensities");
     require(types.height() == mean.height(), "types.height()", types.height(), "that of the intensities");
     require(numbers.step == 1 || numbers.step == -1, "ping_numbers.step", numbers.step, "1 or -1");
+    constexpr std::int64_t farthest = std::int64_t{1} << 61;
+    require_range("ping_numbers.first", numbers.first, -farthest, farthest, "within 2^61");
     const speckle_laws laws = resolved_laws(s);
     // All looks are computed for all bins; types use as many as they have.
     int looks = 1;
@@ -27359,7 +27368,7 @@ class banding_law {
 struct range_gain_error {
     float rms = 1.5f;    ///< decibels of the random curve, 0 to 60
     float length = 120;  ///< bins between nodes of the curve; values two nodes apart are independent
-    float slope = 0;     ///< decibels from the first bin to the last, -60 to 60; its middle is 0
+    float slope = 0;  ///< decibels from the first column of the given picture to its last, -60 to 60; 0 in the middle
     std::uint64_t seed = 1;
 
     using is_filter = std::true_type;
@@ -27407,7 +27416,7 @@ INSONIFY_ARITHMETIC_END
 //
 // Lengths are metres. `altitude` is the sonar's above the seabed, `ground` a distance across the track on the seabed,
 // `height` that of a point above the seabed. Results that do not exist are 0 (a distance inside the water column) or
-// infinity (the shadow of an object as high as the sonar), never NaN for finite arguments.
+// infinity (the shadow of an object as high as the sonar), never NaN for arguments within 1e150.
 //
 // Based on: P. Blondel. The Handbook of Sidescan Sonar. 2009.
 

@@ -79,7 +79,7 @@ class random_sequence {
 
     /// Uniform in (0, 1).
     double uniform() { return uniform_open(word()); }
-    /// Uniform in (low, high).
+    /// Uniform between low and high, which rounding may reach.
     double uniform(double low, double high) { return low + (high - low) * uniform(); }
     /// Uniform over 0 ... count - 1; the bias is below count / 2^32.
     /// @throws invalid_input for count = 0

@@ -33,6 +33,7 @@ class masked_pass {
         x_ = area.x, y_ = area.y;
         prepare_pass(pass_, area);
     }
+    int rows_above() const { return detail::rows_above(pass_); }
 
   private:
     Pass pass_;

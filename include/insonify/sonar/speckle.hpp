@@ -90,6 +90,8 @@ INSONIFY_FUNCTION image<float> speckled(image_view<const float> mean, image_view
     require(types.width() == mean.width(), "types.width()", types.width(), "that of the intensities");
     require(types.height() == mean.height(), "types.height()", types.height(), "that of the intensities");
     require(numbers.step == 1 || numbers.step == -1, "ping_numbers.step", numbers.step, "1 or -1");
+    constexpr std::int64_t farthest = std::int64_t{1} << 61;
+    require_range("ping_numbers.first", numbers.first, -farthest, farthest, "within 2^61");
     const speckle_laws laws = resolved_laws(s);
     // All looks are computed for all bins; types use as many as they have.
     int looks = 1;

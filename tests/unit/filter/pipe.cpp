@@ -8,6 +8,7 @@
 #include <insonify/filter/noise.hpp>
 #include <insonify/filter/pipe.hpp>
 #include <insonify/filter/poisson.hpp>
+#include <insonify/filter/where.hpp>
 
 #include <climits>
 #include <cmath>
@@ -175,6 +176,10 @@ TEST_CASE("A pass that computes rows above its band gets high bands, walked down
             REQUIRE(sums(x, y) == sum);
         }
     // Four runs of three bands, which are twice as high as the rows above them.
+    CHECK(read == 4 * (240 + 2 * 40));
+    read = 0;
+    const in::image<std::uint8_t> all(2000, 240, 1);
+    CHECK((picture | in::where(all.view(), sum_downwards{picture, read})) == sums);
     CHECK(read == 4 * (240 + 2 * 40));
 }
 

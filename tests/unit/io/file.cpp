@@ -114,6 +114,7 @@ TEST_CASE("Pipes and folders are not replaced by files") {
     CHECK_THROWS_WITH(in::write_file(folder / "pipe", "text"), ContainsSubstring("not a regular file"));
     CHECK(fs::is_fifo(folder.path / "pipe"));
     CHECK_THROWS_WITH(in::write_file(folder.path.string(), "text"), ContainsSubstring("not a regular file"));
+    CHECK_THROWS_WITH(in::write_file(folder / "a" + '\0' + "b", "text"), ContainsSubstring("a zero byte in its name"));
     CHECK(folder.names() == std::set<std::string>{"pipe"});
 }
 

@@ -234,12 +234,20 @@ TEST_CASE("with_speckle() refuses each field of a speckle by name") {
             use(s);
         },
         law);
-    in::ping_numbers rows;
-    rows.step = 2;
-    CHECK_THAT(refusal([&] {
-                   (void)in::with_speckle(heard.image.view(), heard.labels.seabed.view(), in::seabed_speckle{}, rows);
-               }),
-               ContainsSubstring("ping_numbers.step"));
+    const auto refused = [&](in::ping_numbers rows) {
+        return refusal([&] {
+            (void)in::with_speckle(heard.image.view(), heard.labels.seabed.view(), in::seabed_speckle{}, rows);
+        });
+    };
+    CHECK_THAT(refused({.step = 2}), ContainsSubstring("ping_numbers.step"));
+    CHECK_THAT(refused({.first = std::numeric_limits<std::int64_t>::max()}), ContainsSubstring("ping_numbers.first"));
+}
+
+TEST_CASE("A gap between two pictures leaves room for their columns") {
+    const in::image<float> picture(6, 4);
+    CHECK(in::beside(picture, picture, 3).width() == 15);
+    for (const int gap : {-1, std::numeric_limits<int>::max(), std::numeric_limits<int>::max() - 11})
+        CHECK_THROWS_WITH(in::beside(picture, picture, gap), ContainsSubstring("gap is"));
 }
 
 TEST_CASE("Filters of recordings refuse each field by name") {

@@ -68,10 +68,13 @@ class correlated_draws {
         for (std::size_t i = 0; i < strips_.size(); ++i) {
             last_ = last_ + 1 < strips_.size() ? last_ + 1 : 0;
             strip& s = strips_[last_];
-            if (s.field != field || s.channel != run.channel) continue;
-            if (s.x != run.x || s.count != run.count) s.x = run.x, s.count = run.count, s.filled = false;
-            return s;
+            if (s.x == run.x && s.count == run.count && s.field == field && s.channel == run.channel) return s;
         }
+        for (strip& s : strips_)
+            if (s.field == field && s.channel == run.channel && s.y > run.y) {  // of a column that is finished
+                s.x = run.x, s.count = run.count, s.filled = false;
+                return s;
+            }
         last_ = strips_.size();
         strips_.push_back({field, run.channel, run.x, run.count, 0, false,
                            dynamic_array<float>((2 * taps_y_.size() - 1) * run_length)});

@@ -92,7 +92,7 @@ class banding_law {
 struct range_gain_error {
     float rms = 1.5f;    ///< decibels of the random curve, 0 to 60
     float length = 120;  ///< bins between nodes of the curve; values two nodes apart are independent
-    float slope = 0;     ///< decibels from the first bin to the last, -60 to 60; its middle is 0
+    float slope = 0;  ///< decibels from the first column of the given picture to its last, -60 to 60; 0 in the middle
     std::uint64_t seed = 1;
 
     using is_filter = std::true_type;

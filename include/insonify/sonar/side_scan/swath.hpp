@@ -46,11 +46,12 @@ frame<Labels> upside_down(frame<Labels> r) {
 ///
 /// `beside(turned(port.image), starboard.image, gap)` of two overhead frames, the first with its yaw half a turn
 /// further, is the paper's stitched picture; its dead zone is the gap.
-/// @throws invalid_input for pictures of different heights, or a negative gap
+/// @throws invalid_input for pictures of different heights, a negative gap or one that leaves no room for the columns
 template <class T>
 image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill = T{}) {
     detail::require(left.height() == right.height(), "right.height()", right.height(), "that of the left picture");
-    detail::require(gap >= 0, "gap", gap, "at least 0");
+    const std::int64_t widest = (std::numeric_limits<int>::max)() - std::int64_t{left.width()} - right.width();
+    detail::require_range("gap", std::int64_t{gap}, 0, widest, "0 to 2^31 - 1, with both pictures");
     image<T> out(left.width() + gap + right.width(), left.height(), fill);
     for (int y = 0; y < left.height(); ++y) {
         std::copy(left.row(y).begin(), left.row(y).end(), out.row(y).begin());
