@@ -18,6 +18,9 @@ import unittest
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "examples/common"))
 from programs import digest
 
+if len(sys.argv) < 3:
+    print("generate_dataset and merge_dataset are not built")
+    sys.exit(77)
 GENERATOR, MERGE = sys.argv.pop(1), sys.argv.pop(1)
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SET = ["--recipe", "published", "--size", "256", "--count", "60", "--seed", "5"]
