@@ -24998,16 +24998,19 @@ class bottom_profile {
     }
 
     /// The cut near a depth. The seabed's position depends on the depth: a fixed-point iteration, which converges on
-    /// slopes below 1 / tan(pitch); elsewhere and beside gaps, a search.
+    /// slopes below 1 / tan(pitch); where it does not, and beside gaps, a search.
     cut cut_near(const ping_frame& p, double x, double down, const bottom_tiles::depth_range& depths) const {
-        cut found{down, {}};
-        double last = down;
-        for (int i = 0; i < 5; ++i) {
+        const double tolerance = 1e-4 * step_;
+        double last_error = std::numeric_limits<double>::infinity();
+        while (true) {
             // In this order, NaN becomes the shallowest depth.
-            last = (std::min)((std::max)(depths.shallowest, found.down), depths.deepest);
-            found = seabed_at(p, x, last);
+            down = (std::min)((std::max)(depths.shallowest, down), depths.deepest);
+            const cut found = seabed_at(p, x, down);
+            const double error = numeric::abs(found.down - down);
+            if (error <= tolerance) return found;
+            if (!(error < 0.7 * last_error)) return first_cut(p, x, depths);
+            down = found.down, last_error = error;
         }
-        return numeric::abs(found.down - last) <= 0.01 * step_ ? found : first_cut(p, x, depths);
     }
 
     /// The first cut, from above.
