@@ -1,4 +1,4 @@
-// A user's shadow policy draws a frame: every triangle is tried along every ray, for light from far away.
+// A shadow policy of your own: tests every triangle along every ray to a directional light.
 #include <insonify/insonify.hpp>
 #include <insonify/sonar/overhead/render.hpp>
 
@@ -26,7 +26,7 @@ struct every_triangle {
         const auto corner = [&](int k) { return insonify::transform_point(c.placement, c.mesh.positions[t[k]]) - p; };
         const glm::dvec3 u = corner(0), v = corner(1), w = corner(2);
         const auto side = [&](const auto& a, const auto& b) { return glm::dot(to_light, glm::cross(a, b)); };
-        const double volume = glm::dot(u, glm::cross(v, w)), sign = volume < 0 ? -1 : 1;
+        const double volume = glm::dot(u, glm::cross(v, w)), sign = volume < 0 ? -1 : 1;  // 0 on its own triangle
         return sign * volume > 1e-12 && sign * side(u, v) >= 0 && sign * side(v, w) >= 0 && sign * side(w, u) >= 0;
     }
 };

@@ -32,6 +32,7 @@ in::mesh load(const std::string& path) {
         in::mesh all;
         for (unsigned part = 0; part < file->mNumMeshes; ++part) {
             const aiMesh& m = *file->mMeshes[part];
+            if (!m.HasNormals()) continue;  // points or lines
             const auto first = static_cast<std::uint32_t>(all.positions.size());
             for (unsigned i = 0; i < m.mNumVertices; ++i) {
                 all.positions.emplace_back(m.mVertices[i].x, m.mVertices[i].y, m.mVertices[i].z);
@@ -52,10 +53,11 @@ in::mesh load(const std::string& path) {
 int main(int argc, char** argv) try {
     examples::check_arguments(argc, argv, 0, 3, "render_mesh [mesh [out.png [y or z: which axis is up]]]");
     const std::string path = argc > 1 ? argv[1] : EXAMPLES_MESH;
-    const bool y_up = argc <= 3 || argv[3][0] != 'z';
+    const std::string up = argc > 3 ? argv[3] : "y";
+    if (up != "y" && up != "z") throw in::invalid_input("the axis that is up is '" + up + "', expected y or z");
 
     in::mesh shape = load(path);
-    if (y_up) shape = in::transformed(std::move(shape), in::to_world({.roll = 90_deg}));
+    if (up == "y") shape = in::transformed(std::move(shape), in::to_world({.roll = 90_deg}));
     const glm::dvec3 size = in::bounds(shape).size();
     const double largest = (std::max)({size.x, size.y, size.z});
     if (!(largest > 0)) throw in::invalid_input(path + ": has no triangles with an extent");

@@ -82,7 +82,7 @@ void check_mode(const options& o, const is_given& given) {
         refuse_options(given, {"--grazing", "--intensity", "--sky"}, reason + "--mode overhead");
 }
 
-/// Displays are a sonar's; only one in decibels has a range.
+/// Refuses options of displays that are not used: overhead images have none, and only one in decibels has a range.
 void check_display(const options& o, const is_given& given) {
     if (!o.is_sonar() && o.is_overhead())
         refuse_options(given, {"--display", "--white", "--display-range"},

@@ -105,7 +105,9 @@ options with_line(const options& o, const plan_row& row) {
             for (const noise_step& step : noise_steps(own))
                 if (step.kind == "seabed" && own.is_overhead()) row.refuse("noise", "a chain without seabed");
         } catch (const CLI::ValidationError&) {
-            row.refuse("noise", "none, or a chain of speckle:VARIANCE, gaussian:VARIANCE, poisson:PHOTONS, rayleigh");
+            row.refuse("noise", std::string("none, or a chain of speckle:VARIANCE, gaussian:VARIANCE, poisson:PHOTONS, "
+                                            "rayleigh") +
+                                    (own.is_overhead() ? "" : ", seabed"));
         }
     }
     // Input files are read once, so these options must be the same for all images.
@@ -240,8 +242,11 @@ void apply_aspects(options& o, const std::string& text) {
 
 void apply_plan_count(options& o, const is_given& given) {
     const std::uint64_t images = o.table->size() * views_of_each(o);
-    if (!given("--count")) o.count = images - (std::min)(images, o.first);
-    if (o.count == 0 || o.first + o.count > images)
+    if (o.first >= images)
+        throw CLI::ValidationError("--first", std::to_string(o.first) + " is not below " + std::to_string(images) +
+                                                  ", the number of images of the plan");
+    if (!given("--count")) o.count = images - o.first;
+    if (o.first + o.count > images)
         throw CLI::ValidationError("--count", std::to_string(o.count) + " images from --first " +
                                                   std::to_string(o.first) + " on are more than the " +
                                                   std::to_string(images) + " of the plan");

@@ -17,7 +17,7 @@ using is_given = std::function<bool(const char* option)>;
 
 // The three below throw CLI::ValidationError, or plan_error, for options that contradict the plan.
 
-/// Reads `--plan` and sets the options that the command line does not give.
+/// Reads `--plan`, and takes recipe, mode, formats and seabeds from it unless the command line gives them.
 void apply_plan(options& o, const std::string& path, const is_given& given);
 /// Parses `--aspects`. Empty text means the paper's aspects for its camera, and random ones otherwise.
 void apply_aspects(options& o, const std::string& text);

@@ -351,6 +351,7 @@ class Plans(unittest.TestCase):
         self.assertIn("column seabed", refusal(*plan, "--seabeds", "mud"))
         self.assertIn("cannot be combined with --plan", refusal(*plan, "--per-class", "cube=3"))
         self.assertIn("are more than the 1 of the plan", refusal(*plan, "--count", 2))
+        self.assertIn("--first: 1 is not below 1", refusal(*plan, "--first", 1))
         self.assertIn("does not exist", refusal("--out", self.folder / "x", "--plan", self.folder / "no.csv"))
         for aspects in "0:10", "0:0:350", "10:10:0", "a", "0:nan:9", "", "0,", "720":
             self.assertIn("is not first:step:last",

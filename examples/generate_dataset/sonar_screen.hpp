@@ -5,7 +5,7 @@
 
 namespace generator::detail {
 
-/// Picture or labels, turned by quarters; 4 and more are mirrored first.
+/// A square picture or its labels after `turn` counter-clockwise quarter turns; from 4 on, of the mirrored picture.
 template <class T>
 in::image<T> turned(const in::image<T>& from, int turn) {
     const int n = from.width();
@@ -22,8 +22,8 @@ in::image<T> turned(const in::image<T>& from, int turn) {
     return to;
 }
 
-/// What a picture of fewer pixels looks like enlarged to the same size: means of `factor` x `factor` pixels, and
-/// straight lines between them.
+/// The picture as it looks when it was stored with `factor` times fewer pixels a side and enlarged to its size again:
+/// means of `factor` x `factor` pixels, interpolated linearly.
 inline in::image<float> enlarged(const in::image<float>& from, double factor) {
     const int n = from.width(), coarse = (std::max)(static_cast<int>(in::numeric::floor_to_int(n / factor + 0.5)), 2);
     const double step = static_cast<double>(n) / coarse;
@@ -60,6 +60,7 @@ inline in::image<float> on_screen(in::image<float> heard, const sonar_plan& p, a
     const auto white = static_cast<float>(p.white);
     if (p.display == "decibels")
         return show(in::decibel_display{.white = white, .range = static_cast<float>(p.dynamic_range)});
+    // Automatic displays have no exponent; the plan's decides their scale: a quarter of them are in decibels.
     if (p.display == "automatic")
         return show(in::automatic_display{
             .scale = p.exponent < 0.4 ? in::display_scale::decibels : in::display_scale::amplitude,

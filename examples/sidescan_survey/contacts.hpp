@@ -15,7 +15,7 @@ struct contact {
     int first_bin = 1 << 30, last_bin = -1, shadow_end = -1;
     std::int64_t area = 0, shadow_area = 0;
     fix closest{};                ///< the ping from which it is abeam
-    double closest_along = 1e30;  ///< its distance ahead or behind at that ping, squared
+    double along_squared = 1e30;  ///< square of its distance ahead or behind at that ping, m^2
 };
 
 /// All contacts in sight, and the table of earlier ones.
@@ -80,7 +80,7 @@ class contact_list {
         }
         c.last_ping = at.number;
         const double along = in::ping_frame(at.at, side)(c.target.placement.position).y;
-        if (along * along < c.closest_along) c.closest_along = along * along, c.closest = at;
+        if (along * along < c.along_squared) c.along_squared = along * along, c.closest = at;
         return c;
     }
 

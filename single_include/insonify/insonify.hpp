@@ -4711,8 +4711,8 @@ class rank_pass {
 }  // namespace detail::inline INSONIFY_FLAGS
 
 /// Gives an image the distribution of a reference, by exact ranks. The reference's distribution is computed once and
-/// shared by copies of the filter. Floats become floats, NaN stays NaN; codes become the nearest codes. An image
-/// without a finite pixel passes through.
+/// shared by copies of the filter. Floats become floats: NaN stays NaN, infinities become the lowest or the highest
+/// rank's value. Codes become the nearest codes. An image without a finite pixel passes through.
 ///
 /// A constant image becomes the reference's largest value, as in scikit-image: all its pixels have the highest rank.
 ///
@@ -4732,7 +4732,8 @@ class match_histogram {
 
     /// @throws invalid_input for an empty distribution, or values and cumulative of different sizes
     INSONIFY_TAGGED explicit match_histogram(distribution reference) {
-        detail::require(reference.total() > 0, "finite pixels in the reference", reference.total(), "at least 1");
+        detail::require(reference.total() > 0, "number of finite pixels in the reference", reference.total(),
+                        "1 or more");
         detail::require(reference.values.size() == reference.cumulative.size(), "reference.values.size()",
                         reference.values.size(), "that of cumulative");
         reference_ = std::make_shared<const distribution>(std::move(reference));
@@ -8189,11 +8190,11 @@ using insonify::detail::require_range;
 
 template <std::floating_point Number>
 void require_metres(std::string_view name, Number value) {
-    require(value >= 0 && value < static_cast<Number>(1e6), name, value, "metres, at least 0");
+    require(value >= 0 && value < static_cast<Number>(1e6), name, value, "metres, at least 0 and below 10^6");
 }
 template <std::floating_point Number>
 void require_positive_metres(std::string_view name, Number value) {
-    require(value > 0 && value < static_cast<Number>(1e6), name, value, "metres above 0");
+    require(value > 0 && value < static_cast<Number>(1e6), name, value, "metres above 0 and below 10^6");
 }
 inline void require_position(const std::string& name, const glm::dvec2& p) {
     require_range(name + ".x", p.x, -1e9, 1e9, "within 1e9 metres");
@@ -9596,12 +9597,12 @@ class trawl_furrows {
   public:
     trawl_furrows(const trawl_marks& t, std::uint64_t seed)
         : depth_(t.depth), width_(static_cast<double>(t.width)), hash_(seed, stream::trawls) {
-        require_range("trawl_marks.width", t.width, 1e-3f, 1e6f, "metres from 0.001");
+        require_range("trawl_marks.width", t.width, 1e-3f, 1e6f, "0.001 to 10^6 metres");
         require(t.density >= 0 && 4 * t.density * t.width <= 1, "trawl_marks.density", t.density,
                 "0 to 1 / (4 width) per metre");
         require_metres("trawl_marks.depth", t.depth);
         require_range("trawl_marks.directions", t.directions, 1, 8, "1 to 8");
-        require_range("trawl_marks.length", t.length, 1e-3f, 1e6f, "metres from 0.001");
+        require_range("trawl_marks.length", t.length, 1e-3f, 1e6f, "0.001 to 10^6 metres");
         if (t.density == 0 || t.depth == 0) return;
         random_sequence draw(seed, static_cast<std::uint32_t>(stream::trawls));
         const double turn = draw.uniform();
@@ -9737,7 +9738,7 @@ class mud_sampler {
   public:
     explicit mud_sampler(const mud& m) : surface_(m.surface, m.seed, detail::stream::mud), trawls_(m.trawls, m.seed) {
         const float cell = 4 * m.size;
-        detail::require_range("mud.size", m.size, 1e-3f, 1e6f, "metres from 0.001");
+        detail::require_range("mud.size", m.size, 1e-3f, 1e6f, "0.001 to 10^6 metres");
         detail::require(m.density >= 0 && m.density * cell * cell <= 1, "mud.density", m.density,
                         "0 to 1 / (4 size)^2 per square metre");
         detail::require_metres("mud.mound_height", m.mound_height);
@@ -10097,7 +10098,7 @@ class rock_sampler {
   public:
     explicit rock_sampler(const rock& r) : surface_(r.surface, r.seed, detail::stream::rubble), relief_(r.relief) {
         detail::require_metres("rock.relief", r.relief);
-        detail::require_range("rock.outcrop", r.outcrop, 1e-3f, 1e6f, "metres from 0.001");
+        detail::require_range("rock.outcrop", r.outcrop, 1e-3f, 1e6f, "0.001 to 10^6 metres");
         detail::require_positive_metres("rock.block", r.block);
         detail::require_range("rock.smallest", r.smallest, 1e-3f, r.block, "metres from 0.001 to rock.block");
         detail::require_range("rock.sizes", r.sizes, 0, 4, "0 to 4");
@@ -10303,8 +10304,11 @@ namespace shadow {
 
 /// Light from infinitely far away.
 struct directional_light {
+    /// Radians: the float nearest to 10^-9, which rigs take.
+    static constexpr double lowest_elevation = static_cast<double>(1e-9f);
+
     double azimuth = 0;                         ///< radians: where it travels to, from +x towards +y
-    double elevation = numeric::to_radians(6);  ///< radians above the horizon, 10^-9 to pi / 2
+    double elevation = numeric::to_radians(6);  ///< radians above the horizon, lowest_elevation to pi / 2
 };
 
 /// Light from a point nearby.
@@ -10322,8 +10326,9 @@ class light_frame {
   public:
     /// @throws invalid_input for an elevation outside 10^-9 to pi / 2 or an azimuth beyond 10^6 radians
     explicit light_frame(const directional_light& light) {
-        insonify::detail::require(light.elevation >= 1e-9 && light.elevation <= numeric::pi / 2 + 1e-7, "elevation",
-                                  light.elevation, "10^-9 to pi / 2");
+        insonify::detail::require(
+            light.elevation >= directional_light::lowest_elevation && light.elevation <= numeric::pi / 2 + 1e-7,
+            "elevation", light.elevation, "10^-9 to pi / 2");
         insonify::detail::require_angle("azimuth", light.azimuth);
         const auto [sin_azimuth, cos_azimuth] = numeric::sin_cos(light.azimuth);
         const auto [sin_elevation, cosine] = numeric::sin_cos(light.elevation);
@@ -10589,8 +10594,8 @@ struct facet_backscatter {
     float volume = 0;     ///< echo of the volume at normal incidence over that of Lambert's law, >= 0
 
     INSONIFY_TAGGED float operator()(float s) const {
+        if (!(s > 0)) return 0;
         const double square = static_cast<double>(s) * static_cast<double>(s);
-        if (!(square > 1e-6)) return 0;
         const double tangent_square = 1 / square - 1, spread = static_cast<double>(slope);
         const double exponent = 0.5 * tangent_square / (spread * spread);
         return static_cast<float>(square + static_cast<double>(volume) * static_cast<double>(s) +
@@ -11737,7 +11742,7 @@ class run_reader {
     }
 
     std::span<const triangle_run> runs_;
-    std::uint32_t taken_ = 0;  ///< of the first of them
+    std::uint32_t taken_ = 0;  ///< triangles of the first run
 };
 
 /// The runs of one chunk.
@@ -11768,7 +11773,7 @@ class tile_runs {
         }
     }
 
-    /// Adds `offset` to all ids from `first` on; no run may contain ids on either side of it.
+    /// Adds `offset` to all ids from `first` on. @pre no run contains ids both below and above it
     void shift_ids(std::uint32_t first, std::uint32_t offset) {
         for (entry& e : entries_)
             if (e.run.first >= first) e.run.first += offset;
@@ -16949,7 +16954,7 @@ struct heightfield {
     image<float> heights{};       ///< metres above the datum, at least 2 x 2 vertices
     image<type> types{};          ///< one per vertex; empty: all are `fallback`
     glm::dvec2 origin{0.0, 0.0};  ///< world position of vertex (0, 0), metres
-    double spacing = 1;           ///< metres between vertices, > 0
+    double spacing = 1;           ///< metres between vertices, > 0 and < 10^6
     type fallback = type::sand;
     /// Properties of users' labels; those of the library are in its registry.
     std::vector<type_properties> own_types{};
@@ -16986,8 +16991,8 @@ struct heightfield {
 
 inline namespace INSONIFY_FLAGS {
 
-/// @throws invalid_input for fewer than 2 x 2 vertices, types of another size, an origin beyond 1e9 m or a spacing not
-/// above 0
+/// @throws invalid_input for fewer than 2 x 2 vertices, types of another size, an origin beyond 1e9 m or a spacing that
+/// is not above 0 and below 10^6 m
 inline void validate(const heightfield& h) {
     detail::require(h.heights.width() >= 2, "heightfield.heights.width()", h.heights.width(), "at least 2");
     detail::require(h.heights.height() >= 2, "heightfield.heights.height()", h.heights.height(), "at least 2");
@@ -16995,8 +17000,8 @@ inline void validate(const heightfield& h) {
                     h.types.width(), "that of the heights, or no types at all");
     detail::require(h.types.empty() || h.types.height() == h.heights.height(), "heightfield.types.height()",
                     h.types.height(), "that of the heights, or no types at all");
-    detail::require_position("heightfield.origin", h.origin);
     detail::require_positive_metres("heightfield.spacing", h.spacing);
+    detail::require_position("heightfield.origin", h.origin);
 }
 
 /// Evaluates a `heightfield` between its vertices.
@@ -17045,10 +17050,10 @@ inline namespace INSONIFY_FLAGS {
 ///
 /// An image of 8 bits has 256 heights: over 1 m of relief its steps are 4 mm high and show as contour lines at grazing
 /// light. Use 16 bits or more, or smooth the pixels first.
-/// @param spacing  metres between pixels, > 0
+/// @param spacing  metres between pixels, > 0 and < 10^6
 /// @param scale    metres per unit of a pixel
 /// @param no_data  the value of pixels without data, often 0; NaN pixels never have data
-/// @throws invalid_input for a picture smaller than 2 x 2, a spacing not above 0 or a scale that is not finite
+/// @throws invalid_input for a picture smaller than 2 x 2, a spacing out of its range or a scale that is not finite
 inline heightfield from_image(image_view<const float> picture, double spacing, float scale = 1,
                               float no_data = std::numeric_limits<float>::quiet_NaN()) {
     detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");
@@ -17840,7 +17845,7 @@ namespace seabed {
 /// their vertices to the last bit if they differ in `first` and not in the origin.
 struct grid {
     glm::dvec2 origin{0.0, 0.0};
-    double spacing = 0.02;
+    double spacing = 0.02;      ///< metres between vertices, > 0 and < 10^6
     int width = 2, height = 2;  ///< vertices, at least 2
     bool band_limited = false;  ///< relief that the spacing can't carry fades out instead of aliasing
     glm::ivec2 first{0, 0};
@@ -17850,11 +17855,14 @@ inline namespace INSONIFY_FLAGS {
 
 /// The grid whose vertices are multiples of the spacing and which covers [low, high]. Grids of one spacing share their
 /// vertices where they overlap: to the last bit if the spacing is a sum of few powers of two, as 1/64 m is.
-/// @throws invalid_input for a spacing not above 0, or corners beyond 1e9 metres or in the wrong order
+/// @throws invalid_input for a spacing that is not above 0 and below 10^6 m or is too fine for the corners, and for
+/// corners beyond 1e9 metres, in the wrong order or more than 2^30 vertices apart
 inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
+    detail::require_position("low", low);
+    detail::require_position("high", high);
     detail::require_positive_metres("spacing", spacing);
     const auto axis = [&](double from, double to, const char* name) {
-        detail::require(from >= -1e9 && to <= 1e9 && from <= to, name, to, "not below low, both within 1e9 metres");
+        detail::require(from <= to, name, to, "not below low");
         detail::require(-from <= 0x1p53 * spacing && to <= 0x1p53 * spacing, "spacing", spacing,
                         "at least 2^-53 of the distance to the origin");
         const std::int64_t first = numeric::floor_to_int(from / spacing);
@@ -17872,8 +17880,8 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
 /// The bits depend on the model and the positions of the vertices alone, not on the executor or on what else is in
 /// the grid.
 /// @param source  the library's or a user's own
-/// @throws invalid_input for a grid smaller than 2 x 2, beyond 1e9 metres or with a spacing not above 0, and for
-/// parameters of the model out of their range
+/// @throws invalid_input for a grid smaller than 2 x 2, beyond 1e9 metres or with a spacing that is not above 0 and
+/// below 10^6 m, and for parameters of the model out of their range
 template <model Model, executor_argument Executor = serial_executor>
 heightfield sample(const Model& source, const grid& where, Executor&& ex = serial_executor{}) {
     constexpr insonify::detail::uninitialized uninitialized;
@@ -19518,8 +19526,7 @@ class flat_polygon {
         const glm::dvec3 origin(corners[0]);
         for (std::size_t i = 2; i < corners.size(); ++i)
             area += numeric::cross(glm::dvec3(corners[i - 1]) - origin, glm::dvec3(corners[i]) - origin);
-        const glm::dvec3 extent = area * area;
-        const int away = extent.x > extent.y ? (extent.x > extent.z ? 0 : 2) : (extent.y > extent.z ? 1 : 2);
+        const int away = numeric::dominant_axis(area);
         u_ = (away + (area[away] < 0 ? 2 : 1)) % 3;
         v_ = (away + (area[away] < 0 ? 1 : 2)) % 3;
     }
@@ -19978,15 +19985,15 @@ inline void append_box(mesh& into, const glm::dvec3& low, const glm::dvec3& high
         {{{low.x, low.y, high.z}, {high.x, low.y, high.z}, {high.x, high.y, high.z}, {low.x, high.y, high.z}}});
 }
 
-/// Two unit vectors across a direction.
+/// Two unit vectors, perpendicular to a direction and to each other.
 inline std::pair<glm::dvec3, glm::dvec3> across(const glm::dvec3& direction) {
     const glm::dvec3 along = unit(direction);
-    const glm::dvec3 away = std::abs(along.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 away = numeric::abs(along.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
     const glm::dvec3 u = unit(numeric::cross(away, along));
     return {u, numeric::cross(along, u)};
 }
 
-/// The corners of a regular polygon around a point.
+/// The corners of a regular polygon, inscribed in the ellipse with semi-axes u and v; no corner lies on an axis.
 inline section circle(const glm::dvec3& centre, const glm::dvec3& u, const glm::dvec3& v, int corners) {
     section out;
     for (int i = 0; i < corners; ++i) {
@@ -22239,7 +22246,7 @@ inline double signed_distance(const distance_map& m, const glm::dvec2& p) {
 }
 
 inline void validate(const disc& d) {
-    require(d.radius >= 0 && d.radius < 1e9f, "disc.radius", d.radius, "metres, at least 0");
+    require(d.radius >= 0 && d.radius < 1e9f, "disc.radius", d.radius, "metres, at least 0 and below 10^9");
     require_position("disc.centre", d.centre);
 }
 inline void validate_points(const std::vector<glm::dvec2>& points, const char* name, std::size_t min_count) {
@@ -22249,7 +22256,7 @@ inline void validate_points(const std::vector<glm::dvec2>& points, const char* n
 }
 inline void validate(const band& b) {
     validate_points(b.path, "band.path", 1);
-    require(b.width >= 0 && b.width < 1e9f, "band.width", b.width, "metres, at least 0");
+    require(b.width >= 0 && b.width < 1e9f, "band.width", b.width, "metres, at least 0 and below 10^9");
 }
 inline void validate(const polygon& p) {
     validate_points(p.corners, "polygon.corners", 3);
@@ -22313,10 +22320,11 @@ class area_sampler {
     static constexpr float unbounded = 1e30f;  ///< offset beyond every value of the noise
 
     static roughness roughness_of(const area& where, float border, float ragged) {
-        require(border >= 1e-3f && border < 1e6f, "layer.border", border, "metres from 0.001");
+        require(border >= 1e-3f && border < 1e6f, "layer.border", border, "metres, at least 0.001 and below 10^6");
         require(ragged >= 0 && ragged <= 1e5f, "layer.ragged", ragged, "metres, 0 to 10^5");
         if (const auto* p = std::get_if<patches>(&where)) {
-            require(p->size >= border && p->size < 1e6f, "patches.size", p->size, "metres, at least layer.border");
+            require(p->size >= border && p->size < 1e6f, "patches.size", p->size,
+                    "metres, at least layer.border and below 10^6");
             return {.rms = 1, .longest = p->size, .shortest = border, .exponent = 3.6f};
         }
         const float longest = (std::max)(6 * ragged, border);
@@ -22508,7 +22516,7 @@ inline esri_header read_esri_header(survey_reader& in) {
     if (!is_whole(h.columns)) in.fail("ncols is missing or not an integer from 2 to 2^24");
     if (!is_whole(h.rows)) in.fail("nrows is missing or not an integer from 2 to 2^24");
     if (!has_x || !has_y) in.fail("xllcorner or yllcorner is missing");
-    if (!(h.cell > 0 && h.cell < 1e6)) in.fail("cellsize is missing or not above 0");
+    if (!(h.cell > 0 && h.cell < 1e6)) in.fail("cellsize is missing, or not above 0 and below 10^6");
     h.origin += glm::dvec2(corner_x ? 0.5 * h.cell : 0, corner_y ? 0.5 * h.cell : 0);
     require_position(in, h.origin.x, h.origin.y);
     return h;
@@ -23206,7 +23214,7 @@ inline ground_rect rect_around(std::span<const glm::dvec2> points, double reach)
 }
 
 inline void require_height(const char* name, float value) {
-    require(value > -1e6f && value < 1e6f, name, value, "a finite height");
+    require(value > -1e6f && value < 1e6f, name, value, "metres between -10^6 and 10^6");
 }
 
 /// Bounding rectangle of the ground that an edit changes.
@@ -23226,7 +23234,7 @@ inline ground_rect ground_of(const flatten& e) {
 inline ground_rect ground_of(const smooth& e) {
     require_position("smooth.centre", e.centre);
     require_positive_metres("smooth.radius", e.radius);
-    require(e.length >= 1e-3f && e.length < 1e6f, "smooth.length", e.length, "metres from 0.001");
+    require(e.length >= 1e-3f && e.length < 1e6f, "smooth.length", e.length, "metres, at least 0.001 and below 10^6");
     return rect_around({&e.centre, 1}, static_cast<double>(e.radius));
 }
 inline ground_rect ground_of(const ramp& e) {
@@ -23244,14 +23252,15 @@ inline ground_rect ground_of(const stamp& e) {
     for (const glm::dvec2& p : e.path) require_position("stamp.path", p);
     require_positive_metres("stamp.radius", e.radius);
     require_height("stamp.height", e.height);
-    require(e.every == 0 || (e.every >= 1e-3f && e.every < 1e6f), "stamp.every", e.every, "0, or metres from 0.001");
+    require(e.every == 0 || (e.every >= 1e-3f && e.every < 1e6f), "stamp.every", e.every,
+            "0, or metres, at least 0.001 and below 10^6");
     return rect_around(e.path, static_cast<double>(e.radius));
 }
 inline ground_rect ground_of(const heap& e) {
     require_position("heap.centre", e.centre);
     require_metres("heap.radius", e.radius);
     require_height("heap.level", e.level);
-    require(e.slope >= 1e-3f && e.slope < 1e6f, "heap.slope", e.slope, "a slope from 0.001");
+    require(e.slope >= 1e-3f && e.slope < 1e6f, "heap.slope", e.slope, "a slope, at least 0.001 and below 10^6");
     // Bounds cover ground down to a hundred metres below the top.
     return rect_around({&e.centre, 1}, static_cast<double>(e.radius) + 100 / static_cast<double>(e.slope));
 }
@@ -23976,9 +23985,9 @@ class penumbra_occlusion {
             return point_light{point_of_disc(from_nearby->position, disc_offset)};
         const light_frame frame(std::get<directional_light>(light));
         const glm::dvec3 d = toward_disc(frame.to_light(), frame.travel(), disc_offset);
-        if (!(d.z > 0)) return std::nullopt;
-        const double level = numeric::square_root(d.x * d.x + d.y * d.y);
-        return directional_light{numeric::atan2(-d.y, -d.x), numeric::atan2(d.z, level)};
+        const double elevation = numeric::atan2(d.z, numeric::square_root(d.x * d.x + d.y * d.y));
+        if (!(elevation >= directional_light::lowest_elevation)) return std::nullopt;
+        return directional_light{numeric::atan2(-d.y, -d.x), elevation};
     }
 
     /// Adds the light of one sample to the points whose facets show it and the light's centre the same side.
@@ -24710,7 +24719,7 @@ class bottom_tiles {
 
     /// Rounds a length so that its multiples are exact: a vertex has the same coordinates in every row.
     static double even(double length) {
-        require(length > 1e-9 && length < 1e9, "cell", length, "metres above 0");
+        require(length > 1e-9 && length < 1e9, "cell", length, "metres between 10^-9 and 10^9");
         return numeric::rounded_to_eight_bits(length);
     }
 
@@ -25384,27 +25393,24 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
+/// Finds the triangles of a mesh that a plane may cut.
 class plane_tree {
   public:
     plane_tree() = default;
-    /// @param m  its indices have positions; triangles with corners that are not finite are left out
+    /// @param m  its indices have positions; triangles with corners that are not finite are in no box
     explicit plane_tree(const mesh_view& m) : triangles_(m.triangles.size()) {
         dynamic_array<box> level((triangles_ + branching - 1) / branching);
         for (std::size_t i = 0; i < triangles_; ++i) {
             const glm::uvec3& t = m.triangles[i];
-            glm::vec3 sum(0);
-            for (int k = 0; k < 3; ++k) sum += m.positions[t[k]];
-            if (!numeric::is_finite(sum.x) || !numeric::is_finite(sum.y) || !numeric::is_finite(sum.z)) continue;
-            for (int k = 0; k < 3; ++k) level[i / branching].include(m.positions[t[k]]);
+            const glm::vec3 &a = m.positions[t.x], &b = m.positions[t.y], &c = m.positions[t.z];
+            if (!numeric::is_finite(a) || !numeric::is_finite(b) || !numeric::is_finite(c)) continue;
+            for (const glm::vec3& p : {a, b, c}) level[i / branching].include({p, p});
         }
         levels_.push_back(std::move(level));
         while (levels_.back().size() > 1) {
             const dynamic_array<box>& below = levels_.back();
             dynamic_array<box> above((below.size() + branching - 1) / branching);
-            for (std::size_t i = 0; i < below.size(); ++i) {
-                above[i / branching].include(below[i].low);
-                above[i / branching].include(below[i].high);
-            }
+            for (std::size_t i = 0; i < below.size(); ++i) above[i / branching].include(below[i]);
             levels_.push_back(std::move(above));
         }
     }
@@ -25421,13 +25427,14 @@ class plane_tree {
     struct box {
         glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
 
-        void include(const glm::vec3& p) {
+        void include(const box& other) {
             for (int i = 0; i < 3; ++i) {
-                low[i] = (std::min)(low[i], p[i]);
-                high[i] = (std::max)(high[i], p[i]);
+                low[i] = (std::min)(low[i], other.low[i]);
+                high[i] = (std::max)(high[i], other.high[i]);
             }
         }
         bool meets(const glm::dvec3& normal, double offset) const {
+            if (low.x > high.x) return false;  // empty
             double lowest = offset, highest = offset, size = numeric::abs(offset);
             for (int i = 0; i < 3; ++i) {
                 const double a = normal[i] * static_cast<double>(low[i]), b = normal[i] * static_cast<double>(high[i]);
@@ -25436,7 +25443,7 @@ class plane_tree {
                 size += (std::max)(numeric::abs(a), numeric::abs(b));
             }
             const double rounding = 1e-12 * size;
-            return lowest <= rounding && highest >= -rounding;  // false for an empty box
+            return lowest <= rounding && highest >= -rounding;
         }
     };
 

@@ -166,8 +166,8 @@ class rank_pass {
 }  // namespace detail::inline INSONIFY_FLAGS
 
 /// Gives an image the distribution of a reference, by exact ranks. The reference's distribution is computed once and
-/// shared by copies of the filter. Floats become floats, NaN stays NaN; codes become the nearest codes. An image
-/// without a finite pixel passes through.
+/// shared by copies of the filter. Floats become floats: NaN stays NaN, infinities become the lowest or the highest
+/// rank's value. Codes become the nearest codes. An image without a finite pixel passes through.
 ///
 /// A constant image becomes the reference's largest value, as in scikit-image: all its pixels have the highest rank.
 ///
@@ -187,7 +187,8 @@ class match_histogram {
 
     /// @throws invalid_input for an empty distribution, or values and cumulative of different sizes
     INSONIFY_TAGGED explicit match_histogram(distribution reference) {
-        detail::require(reference.total() > 0, "finite pixels in the reference", reference.total(), "at least 1");
+        detail::require(reference.total() > 0, "number of finite pixels in the reference", reference.total(),
+                        "1 or more");
         detail::require(reference.values.size() == reference.cumulative.size(), "reference.values.size()",
                         reference.values.size(), "that of cumulative");
         reference_ = std::make_shared<const distribution>(std::move(reference));

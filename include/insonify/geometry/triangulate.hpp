@@ -34,8 +34,7 @@ class flat_polygon {
         const glm::dvec3 origin(corners[0]);
         for (std::size_t i = 2; i < corners.size(); ++i)
             area += numeric::cross(glm::dvec3(corners[i - 1]) - origin, glm::dvec3(corners[i]) - origin);
-        const glm::dvec3 extent = area * area;
-        const int away = extent.x > extent.y ? (extent.x > extent.z ? 0 : 2) : (extent.y > extent.z ? 1 : 2);
+        const int away = numeric::dominant_axis(area);
         u_ = (away + (area[away] < 0 ? 2 : 1)) % 3;
         v_ = (away + (area[away] < 0 ? 1 : 2)) % 3;
     }

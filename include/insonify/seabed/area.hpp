@@ -168,7 +168,7 @@ inline double signed_distance(const distance_map& m, const glm::dvec2& p) {
 }
 
 inline void validate(const disc& d) {
-    require(d.radius >= 0 && d.radius < 1e9f, "disc.radius", d.radius, "metres, at least 0");
+    require(d.radius >= 0 && d.radius < 1e9f, "disc.radius", d.radius, "metres, at least 0 and below 10^9");
     require_position("disc.centre", d.centre);
 }
 inline void validate_points(const std::vector<glm::dvec2>& points, const char* name, std::size_t min_count) {
@@ -178,7 +178,7 @@ inline void validate_points(const std::vector<glm::dvec2>& points, const char* n
 }
 inline void validate(const band& b) {
     validate_points(b.path, "band.path", 1);
-    require(b.width >= 0 && b.width < 1e9f, "band.width", b.width, "metres, at least 0");
+    require(b.width >= 0 && b.width < 1e9f, "band.width", b.width, "metres, at least 0 and below 10^9");
 }
 inline void validate(const polygon& p) {
     validate_points(p.corners, "polygon.corners", 3);
@@ -242,10 +242,11 @@ class area_sampler {
     static constexpr float unbounded = 1e30f;  ///< offset beyond every value of the noise
 
     static roughness roughness_of(const area& where, float border, float ragged) {
-        require(border >= 1e-3f && border < 1e6f, "layer.border", border, "metres from 0.001");
+        require(border >= 1e-3f && border < 1e6f, "layer.border", border, "metres, at least 0.001 and below 10^6");
         require(ragged >= 0 && ragged <= 1e5f, "layer.ragged", ragged, "metres, 0 to 10^5");
         if (const auto* p = std::get_if<patches>(&where)) {
-            require(p->size >= border && p->size < 1e6f, "patches.size", p->size, "metres, at least layer.border");
+            require(p->size >= border && p->size < 1e6f, "patches.size", p->size,
+                    "metres, at least layer.border and below 10^6");
             return {.rms = 1, .longest = p->size, .shortest = border, .exponent = 3.6f};
         }
         const float longest = (std::max)(6 * ragged, border);

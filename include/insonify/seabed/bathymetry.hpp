@@ -74,7 +74,7 @@ inline esri_header read_esri_header(survey_reader& in) {
     if (!is_whole(h.columns)) in.fail("ncols is missing or not an integer from 2 to 2^24");
     if (!is_whole(h.rows)) in.fail("nrows is missing or not an integer from 2 to 2^24");
     if (!has_x || !has_y) in.fail("xllcorner or yllcorner is missing");
-    if (!(h.cell > 0 && h.cell < 1e6)) in.fail("cellsize is missing or not above 0");
+    if (!(h.cell > 0 && h.cell < 1e6)) in.fail("cellsize is missing, or not above 0 and below 10^6");
     h.origin += glm::dvec2(corner_x ? 0.5 * h.cell : 0, corner_y ? 0.5 * h.cell : 0);
     require_position(in, h.origin.x, h.origin.y);
     return h;

@@ -80,7 +80,7 @@ inline ground_rect rect_around(std::span<const glm::dvec2> points, double reach)
 }
 
 inline void require_height(const char* name, float value) {
-    require(value > -1e6f && value < 1e6f, name, value, "a finite height");
+    require(value > -1e6f && value < 1e6f, name, value, "metres between -10^6 and 10^6");
 }
 
 /// Bounding rectangle of the ground that an edit changes.
@@ -100,7 +100,7 @@ inline ground_rect ground_of(const flatten& e) {
 inline ground_rect ground_of(const smooth& e) {
     require_position("smooth.centre", e.centre);
     require_positive_metres("smooth.radius", e.radius);
-    require(e.length >= 1e-3f && e.length < 1e6f, "smooth.length", e.length, "metres from 0.001");
+    require(e.length >= 1e-3f && e.length < 1e6f, "smooth.length", e.length, "metres, at least 0.001 and below 10^6");
     return rect_around({&e.centre, 1}, static_cast<double>(e.radius));
 }
 inline ground_rect ground_of(const ramp& e) {
@@ -118,14 +118,15 @@ inline ground_rect ground_of(const stamp& e) {
     for (const glm::dvec2& p : e.path) require_position("stamp.path", p);
     require_positive_metres("stamp.radius", e.radius);
     require_height("stamp.height", e.height);
-    require(e.every == 0 || (e.every >= 1e-3f && e.every < 1e6f), "stamp.every", e.every, "0, or metres from 0.001");
+    require(e.every == 0 || (e.every >= 1e-3f && e.every < 1e6f), "stamp.every", e.every,
+            "0, or metres, at least 0.001 and below 10^6");
     return rect_around(e.path, static_cast<double>(e.radius));
 }
 inline ground_rect ground_of(const heap& e) {
     require_position("heap.centre", e.centre);
     require_metres("heap.radius", e.radius);
     require_height("heap.level", e.level);
-    require(e.slope >= 1e-3f && e.slope < 1e6f, "heap.slope", e.slope, "a slope from 0.001");
+    require(e.slope >= 1e-3f && e.slope < 1e6f, "heap.slope", e.slope, "a slope, at least 0.001 and below 10^6");
     // Bounds cover ground down to a hundred metres below the top.
     return rect_around({&e.centre, 1}, static_cast<double>(e.radius) + 100 / static_cast<double>(e.slope));
 }

@@ -73,7 +73,7 @@ struct heightfield {
     image<float> heights{};       ///< metres above the datum, at least 2 x 2 vertices
     image<type> types{};          ///< one per vertex; empty: all are `fallback`
     glm::dvec2 origin{0.0, 0.0};  ///< world position of vertex (0, 0), metres
-    double spacing = 1;           ///< metres between vertices, > 0
+    double spacing = 1;           ///< metres between vertices, > 0 and < 10^6
     type fallback = type::sand;
     /// Properties of users' labels; those of the library are in its registry.
     std::vector<type_properties> own_types{};
@@ -110,8 +110,8 @@ struct heightfield {
 
 inline namespace INSONIFY_FLAGS {
 
-/// @throws invalid_input for fewer than 2 x 2 vertices, types of another size, an origin beyond 1e9 m or a spacing not
-/// above 0
+/// @throws invalid_input for fewer than 2 x 2 vertices, types of another size, an origin beyond 1e9 m or a spacing that
+/// is not above 0 and below 10^6 m
 inline void validate(const heightfield& h) {
     detail::require(h.heights.width() >= 2, "heightfield.heights.width()", h.heights.width(), "at least 2");
     detail::require(h.heights.height() >= 2, "heightfield.heights.height()", h.heights.height(), "at least 2");
@@ -119,8 +119,8 @@ inline void validate(const heightfield& h) {
                     h.types.width(), "that of the heights, or no types at all");
     detail::require(h.types.empty() || h.types.height() == h.heights.height(), "heightfield.types.height()",
                     h.types.height(), "that of the heights, or no types at all");
-    detail::require_position("heightfield.origin", h.origin);
     detail::require_positive_metres("heightfield.spacing", h.spacing);
+    detail::require_position("heightfield.origin", h.origin);
 }
 
 /// Evaluates a `heightfield` between its vertices.
@@ -169,10 +169,10 @@ inline namespace INSONIFY_FLAGS {
 ///
 /// An image of 8 bits has 256 heights: over 1 m of relief its steps are 4 mm high and show as contour lines at grazing
 /// light. Use 16 bits or more, or smooth the pixels first.
-/// @param spacing  metres between pixels, > 0
+/// @param spacing  metres between pixels, > 0 and < 10^6
 /// @param scale    metres per unit of a pixel
 /// @param no_data  the value of pixels without data, often 0; NaN pixels never have data
-/// @throws invalid_input for a picture smaller than 2 x 2, a spacing not above 0 or a scale that is not finite
+/// @throws invalid_input for a picture smaller than 2 x 2, a spacing out of its range or a scale that is not finite
 inline heightfield from_image(image_view<const float> picture, double spacing, float scale = 1,
                               float no_data = std::numeric_limits<float>::quiet_NaN()) {
     detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");

@@ -126,11 +126,11 @@ using insonify::detail::require_range;
 
 template <std::floating_point Number>
 void require_metres(std::string_view name, Number value) {
-    require(value >= 0 && value < static_cast<Number>(1e6), name, value, "metres, at least 0");
+    require(value >= 0 && value < static_cast<Number>(1e6), name, value, "metres, at least 0 and below 10^6");
 }
 template <std::floating_point Number>
 void require_positive_metres(std::string_view name, Number value) {
-    require(value > 0 && value < static_cast<Number>(1e6), name, value, "metres above 0");
+    require(value > 0 && value < static_cast<Number>(1e6), name, value, "metres above 0 and below 10^6");
 }
 inline void require_position(const std::string& name, const glm::dvec2& p) {
     require_range(name + ".x", p.x, -1e9, 1e9, "within 1e9 metres");

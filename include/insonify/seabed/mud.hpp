@@ -45,7 +45,7 @@ class mud_sampler {
   public:
     explicit mud_sampler(const mud& m) : surface_(m.surface, m.seed, detail::stream::mud), trawls_(m.trawls, m.seed) {
         const float cell = 4 * m.size;
-        detail::require_range("mud.size", m.size, 1e-3f, 1e6f, "metres from 0.001");
+        detail::require_range("mud.size", m.size, 1e-3f, 1e6f, "0.001 to 10^6 metres");
         detail::require(m.density >= 0 && m.density * cell * cell <= 1, "mud.density", m.density,
                         "0 to 1 / (4 size)^2 per square metre");
         detail::require_metres("mud.mound_height", m.mound_height);

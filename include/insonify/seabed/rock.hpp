@@ -46,7 +46,7 @@ class rock_sampler {
   public:
     explicit rock_sampler(const rock& r) : surface_(r.surface, r.seed, detail::stream::rubble), relief_(r.relief) {
         detail::require_metres("rock.relief", r.relief);
-        detail::require_range("rock.outcrop", r.outcrop, 1e-3f, 1e6f, "metres from 0.001");
+        detail::require_range("rock.outcrop", r.outcrop, 1e-3f, 1e6f, "0.001 to 10^6 metres");
         detail::require_positive_metres("rock.block", r.block);
         detail::require_range("rock.smallest", r.smallest, 1e-3f, r.block, "metres from 0.001 to rock.block");
         detail::require_range("rock.sizes", r.sizes, 0, 4, "0 to 4");

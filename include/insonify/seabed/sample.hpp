@@ -14,7 +14,7 @@ namespace seabed {
 /// their vertices to the last bit if they differ in `first` and not in the origin.
 struct grid {
     glm::dvec2 origin{0.0, 0.0};
-    double spacing = 0.02;
+    double spacing = 0.02;      ///< metres between vertices, > 0 and < 10^6
     int width = 2, height = 2;  ///< vertices, at least 2
     bool band_limited = false;  ///< relief that the spacing can't carry fades out instead of aliasing
     glm::ivec2 first{0, 0};
@@ -24,11 +24,14 @@ inline namespace INSONIFY_FLAGS {
 
 /// The grid whose vertices are multiples of the spacing and which covers [low, high]. Grids of one spacing share their
 /// vertices where they overlap: to the last bit if the spacing is a sum of few powers of two, as 1/64 m is.
-/// @throws invalid_input for a spacing not above 0, or corners beyond 1e9 metres or in the wrong order
+/// @throws invalid_input for a spacing that is not above 0 and below 10^6 m or is too fine for the corners, and for
+/// corners beyond 1e9 metres, in the wrong order or more than 2^30 vertices apart
 inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
+    detail::require_position("low", low);
+    detail::require_position("high", high);
     detail::require_positive_metres("spacing", spacing);
     const auto axis = [&](double from, double to, const char* name) {
-        detail::require(from >= -1e9 && to <= 1e9 && from <= to, name, to, "not below low, both within 1e9 metres");
+        detail::require(from <= to, name, to, "not below low");
         detail::require(-from <= 0x1p53 * spacing && to <= 0x1p53 * spacing, "spacing", spacing,
                         "at least 2^-53 of the distance to the origin");
         const std::int64_t first = numeric::floor_to_int(from / spacing);
@@ -46,8 +49,8 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
 /// The bits depend on the model and the positions of the vertices alone, not on the executor or on what else is in
 /// the grid.
 /// @param source  the library's or a user's own
-/// @throws invalid_input for a grid smaller than 2 x 2, beyond 1e9 metres or with a spacing not above 0, and for
-/// parameters of the model out of their range
+/// @throws invalid_input for a grid smaller than 2 x 2, beyond 1e9 metres or with a spacing that is not above 0 and
+/// below 10^6 m, and for parameters of the model out of their range
 template <model Model, executor_argument Executor = serial_executor>
 heightfield sample(const Model& source, const grid& where, Executor&& ex = serial_executor{}) {
     constexpr insonify::detail::uninitialized uninitialized;

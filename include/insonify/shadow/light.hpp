@@ -23,8 +23,11 @@ namespace shadow {
 
 /// Light from infinitely far away.
 struct directional_light {
+    /// Radians: the float nearest to 10^-9, which rigs take.
+    static constexpr double lowest_elevation = static_cast<double>(1e-9f);
+
     double azimuth = 0;                         ///< radians: where it travels to, from +x towards +y
-    double elevation = numeric::to_radians(6);  ///< radians above the horizon, 10^-9 to pi / 2
+    double elevation = numeric::to_radians(6);  ///< radians above the horizon, lowest_elevation to pi / 2
 };
 
 /// Light from a point nearby.
@@ -42,8 +45,9 @@ class light_frame {
   public:
     /// @throws invalid_input for an elevation outside 10^-9 to pi / 2 or an azimuth beyond 10^6 radians
     explicit light_frame(const directional_light& light) {
-        insonify::detail::require(light.elevation >= 1e-9 && light.elevation <= numeric::pi / 2 + 1e-7, "elevation",
-                                  light.elevation, "10^-9 to pi / 2");
+        insonify::detail::require(
+            light.elevation >= directional_light::lowest_elevation && light.elevation <= numeric::pi / 2 + 1e-7,
+            "elevation", light.elevation, "10^-9 to pi / 2");
         insonify::detail::require_angle("azimuth", light.azimuth);
         const auto [sin_azimuth, cos_azimuth] = numeric::sin_cos(light.azimuth);
         const auto [sin_elevation, cosine] = numeric::sin_cos(light.elevation);

@@ -70,9 +70,9 @@ class penumbra_occlusion {
             return point_light{point_of_disc(from_nearby->position, disc_offset)};
         const light_frame frame(std::get<directional_light>(light));
         const glm::dvec3 d = toward_disc(frame.to_light(), frame.travel(), disc_offset);
-        if (!(d.z > 0)) return std::nullopt;
-        const double level = numeric::square_root(d.x * d.x + d.y * d.y);
-        return directional_light{numeric::atan2(-d.y, -d.x), numeric::atan2(d.z, level)};
+        const double elevation = numeric::atan2(d.z, numeric::square_root(d.x * d.x + d.y * d.y));
+        if (!(elevation >= directional_light::lowest_elevation)) return std::nullopt;
+        return directional_light{numeric::atan2(-d.y, -d.x), elevation};
     }
 
     /// Adds the light of one sample to the points whose facets show it and the light's centre the same side.

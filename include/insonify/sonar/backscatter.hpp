@@ -54,8 +54,8 @@ struct facet_backscatter {
     float volume = 0;     ///< echo of the volume at normal incidence over that of Lambert's law, >= 0
 
     INSONIFY_TAGGED float operator()(float s) const {
+        if (!(s > 0)) return 0;
         const double square = static_cast<double>(s) * static_cast<double>(s);
-        if (!(square > 1e-6)) return 0;
         const double tangent_square = 1 / square - 1, spread = static_cast<double>(slope);
         const double exponent = 0.5 * tangent_square / (spread * spread);
         return static_cast<float>(square + static_cast<double>(volume) * static_cast<double>(s) +

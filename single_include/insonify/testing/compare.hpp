@@ -64,6 +64,12 @@ double pixel_distance(const Pixel& a, const Pixel& b) {
     return largest;
 }
 
+/// A difference in the digits of a float, like the samples; that of two floats may exceed the largest float.
+inline std::string distance_text(double distance) {
+    const bool is_float = distance <= static_cast<double>((std::numeric_limits<float>::max)());
+    return is_float ? to_text(static_cast<float>(distance)) : to_text(distance);
+}
+
 inline std::string size_text(int width, int height) {
     return to_text(width) + " x " + to_text(height) + " pixels";
 }
@@ -105,12 +111,12 @@ picture_comparison compare_pictures(const image<Pixel>& found, const image<Pixel
                      " of them may); the most at x = " + to_text(result.x) + ", y = " + to_text(result.y) + ": " +
                      detail::channels_of<Pixel>::text(found(result.x, result.y)) + ", expected " +
                      detail::channels_of<Pixel>::text(expected(result.x, result.y)) + ", off by " +
-                     to_text(static_cast<float>(result.largest));
+                     detail::distance_text(result.largest);
     return result;
 }
 
-/// Shows where two pictures differ: the expected one in dim gray, overlaid in red where the found one is brighter and
-/// in blue where it is darker, in full colour at the largest difference.
+/// Shows where two pictures differ: the expected one in dim gray, overlaid in blue where the mean of the found one's
+/// channels is lower and in red where they differ otherwise, in full colour at the largest difference.
 /// @throws invalid_input if the sizes differ
 template <storable_pixel Pixel>
 image<rgb8> difference_picture(const image<Pixel>& found, const image<Pixel>& expected) {
@@ -133,7 +139,7 @@ image<rgb8> difference_picture(const image<Pixel>& found, const image<Pixel>& ex
             raise_to(largest, detail::pixel_distance(found(x, y), expected(x, y)));
         }
     const auto level = [](double value, double full) {
-        const double share = full > 0 ? value / full : value > 0 ? 1 : 0;  // nothing finite differs: NaN does
+        const double share = full > 0 ? value / full : value > 0 ? 1 : 0;  // full is 0 if no finite value is above 0
         return static_cast<std::uint8_t>(share >= 1 ? 255 : share > 0 ? 255 * share : 0);
     };
     image<rgb8> picture(found.width(), found.height());

@@ -69,6 +69,29 @@ TEST_CASE("plane_tree accepts meshes of no triangle and of one, and skips triang
     in::detail::plane_tree(m).cut({1, 0, 0}, 2, count);
     CHECK(runs == 1);
     m.positions[0].x = std::numeric_limits<float>::quiet_NaN();
-    in::detail::plane_tree(m).cut({1, 0, 0}, 0, count);
+    for (const glm::dvec3& normal : {glm::dvec3(1, 0, 0), glm::dvec3(1, 1, 1)})
+        in::detail::plane_tree(m).cut(normal, 0, count);
+    CHECK(runs == 1);
+}
+
+TEST_CASE("plane_tree visits triangles beside runs of triangles that are not finite") {
+    const float infinity = std::numeric_limits<float>::infinity();
+    in::mesh m{.positions = {{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {infinity, 0, 0}}};
+    m.triangles.assign(64, {0, 1, 3});
+    m.triangles.insert(m.triangles.end(), 8, {0, 1, 2});
+    m.triangles.insert(m.triangles.end(), 64, {0, 1, 3});
+    for (const glm::dvec3& normal : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(1, 1, 1)}) {
+        std::size_t first = 0, end = 0;
+        in::detail::plane_tree(m).cut(normal, 0, [&](std::size_t from, std::size_t to) { first = from, end = to; });
+        CHECK(first == 64);
+        CHECK(end == 72);
+    }
+}
+
+TEST_CASE("plane_tree visits triangles whose coordinates add up to more than the largest float") {
+    const float huge = 2e38f;
+    const in::mesh m{.positions = {{-huge, 0, huge}, {huge, 0, huge}, {0, huge, huge}}, .triangles = {{0, 1, 2}}};
+    int runs = 0;
+    in::detail::plane_tree(m).cut({1, 0, 0}, 0, [&](std::size_t, std::size_t) { ++runs; });
     CHECK(runs == 1);
 }

@@ -123,6 +123,7 @@ TEST_CASE("Each field of a small object is refused by name") {
 }
 
 TEST_CASE("Each field of a hull and of an aeroplane is refused by name") {
+    static_assert(members<in::hull>() == 21 && members<in::aeroplane>() == 20);
     const std::vector<double> bad_angle = outside(-1.6, 1.6);
     check_fields<in::hull>(
         "hull.", {}, built,

@@ -11,7 +11,7 @@ using namespace testing_raster;
 
 namespace {
 
-/// Two triangles that share the diagonal q0 q2, or with `reverse` wound the other way in the second.
+/// Two triangles that share the diagonal q0 q2: of opposite windings, or with `reverse` of the same.
 in::mesh quad(const glm::vec3 (&q)[4], bool reverse = false) {
     return {{q[0], q[1], q[2], q[3]}, {}, {{0, 1, 2}, reverse ? glm::uvec3(0, 2, 3) : glm::uvec3(2, 0, 3)}};
 }
@@ -92,7 +92,7 @@ TEST_CASE("A square across the border covers the part inside") {
     }
 }
 
-TEST_CASE("Triangles smaller than a pixel follow the same rule") {
+TEST_CASE("A triangle smaller than a pixel covers it only if the centre is inside by the top-left rule") {
     // piglit, tests/general/triangle-rasterization: right triangles around a centre, shifted by sixteenths.
     for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {

@@ -134,7 +134,25 @@ TEST_CASE("Each field of heightfields and grids is refused by name") {
         "heightfield.", field, used,
         {FIELD(origin.x, outside(-1e9, 1e9)), FIELD(origin.y, outside(-1e9, 1e9)), FIELD(spacing, outside(0, most))});
     CHECK_THAT(refusal([&] { used({.heights = in::image<float>(1, 3)}); }), ContainsSubstring("heights.width()"));
-    for (const double value : not_above_0)
+    for (const double value : not_above_0) {
         CHECK_THAT(refusal([&] { (void)sb::grid_over({0, 0}, {1, 1}, value); }), ContainsSubstring("spacing"));
-    for (const double value : not_finite) CHECK(refusal([&] { (void)sb::grid_over({0, value}, {1, 1}, 0.5); }) != "");
+        CHECK_THAT(refusal([&] { (void)sb::sample(sb::flat{}, {.spacing = value}); }), ContainsSubstring("spacing"));
+    }
+    for (const double value : outside(-1e9, 1e9)) {
+        CHECK_THAT(refusal([&] { (void)sb::grid_over({0, value}, {1, 1}, 0.5); }), ContainsSubstring("low.y is"));
+        CHECK_THAT(refusal([&] { (void)sb::grid_over({0, 0}, {value, 1}, 0.5); }), ContainsSubstring("high.x is"));
+    }
+    CHECK_THAT(refusal([] { (void)sb::grid_over({0, 2}, {1, 1}, 0.5); }), ContainsSubstring("high.y is 1"));
+}
+
+TEST_CASE("A length refused for being too large names the limit") {
+    CHECK(refusal([] {
+              (void)sb::grid_over({0, 0}, {1, 1}, 1e6);
+          }) == "spacing is 1e+06, expected metres above 0 and below 10^6");
+    CHECK_THAT(refusal([] { prepare_any(sb::mud{.mound_height = 1e6f}); }), ContainsSubstring("below 10^6"));
+    CHECK_THAT(refusal([] { prepare_any(sb::mud{.size = 2e6f}); }), ContainsSubstring("to 10^6"));
+    CHECK_THAT(refusal([] { prepare_any(sb::mixed{.layers = {{.border = 1e6f}}}); }), ContainsSubstring("below 10^6"));
+    const auto done = [](const auto& edit) { prepare_any(sb::sculpted{.edits = {edit}}); };
+    CHECK_THAT(refusal([&] { done(sb::raise{.height = -1e6f}); }), ContainsSubstring("between -10^6 and 10^6"));
+    CHECK_THAT(refusal([&] { done(sb::heap{.slope = 1e6f}); }), ContainsSubstring("below 10^6"));
 }

@@ -167,11 +167,26 @@ TEST_CASE("A point in a penumbra is lit by the visible fraction of the disc, und
     }
 }
 
+TEST_CASE("Light may have the float nearest to 10^-9 radians as its elevation, but no less") {
+    const float lowest = 1e-9f;
+    CHECK_NOTHROW(shadow::light_frame({0, static_cast<double>(lowest)}));
+    CHECK_THROWS_WITH(shadow::light_frame({0, static_cast<double>(std::nextafter(lowest, 0.0f))}),
+                      ContainsSubstring("expected 10^-9 to pi / 2"));
+}
+
 TEST_CASE("Light from the float nearest to pi / 2 comes from the zenith, not from beyond") {
     const shadow::light_frame frame({0.3, static_cast<double>(static_cast<float>(in::numeric::pi / 2))});
     CHECK((frame.to_light().x == 0 && frame.to_light().y == 0));
     CHECK(frame.cot_elevation() == 0);
     CHECK_THROWS_WITH(shadow::light_frame({0, 1e-39}), ContainsSubstring("elevation is 1e-39"));
+}
+
+TEST_CASE("Samples of a penumbra below the lowest elevation of a light are below the horizon") {
+    lit::point_list point;
+    point.add({0, 0, 0});
+    const shadow::directional_light lowest{.elevation = shadow::directional_light::lowest_elevation};
+    const auto found = results_of(shadow::penumbra{.diameter = 1e-9f, .samples = 100}, {}, lowest, point, {around});
+    CHECK(found.lit[0] == Approx(0.5).margin(0.05));
 }
 
 TEST_CASE("Samples of a penumbra behind a facet's plane do not light it") {

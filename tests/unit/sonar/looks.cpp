@@ -395,6 +395,7 @@ TEST_CASE("facet_backscatter() is Lambert's law with a peak at normal incidence"
     const in::facet_backscatter muddy{.facets = 0, .volume = 0.5f};
     CHECK(muddy(0.7f) == Approx(0.49 + 0.35));
     CHECK(muddy(0.1f) == Approx(0.06));
+    for (const float s : {1e-3f, 5e-4f, 1e-6f, 1e-30f}) CHECK(muddy(s) == Approx(0.5f * s).epsilon(1e-2));
 }
 
 TEST_CASE("Instruments are found by name; speckle lengths follow from pulse, beam or aperture") {

@@ -89,6 +89,11 @@ TEST_CASE("NaN equals NaN alone, and infinities equal themselves") {
     CHECK_FALSE(in::compare_pictures(endless, zero, {.value = 1e30}));
 }
 
+TEST_CASE("A difference beyond the largest float is reported as a number") {
+    const in::image<float> low(1, 1, -0x1p127f), high(1, 1, 0x1p127f);
+    CHECK(in::compare_pictures(low, high).message.ends_with("off by 3.402823669209385e+38"));
+}
+
 TEST_CASE("Sizes must agree, and tolerances be in range") {
     const auto result = in::compare_pictures(slope(5, 3), slope(3, 5), {.share = 1});
     CHECK_FALSE(result);

@@ -19,27 +19,24 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
+/// Finds the triangles of a mesh that a plane may cut.
 class plane_tree {
   public:
     plane_tree() = default;
-    /// @param m  its indices have positions; triangles with corners that are not finite are left out
+    /// @param m  its indices have positions; triangles with corners that are not finite are in no box
     explicit plane_tree(const mesh_view& m) : triangles_(m.triangles.size()) {
         dynamic_array<box> level((triangles_ + branching - 1) / branching);
         for (std::size_t i = 0; i < triangles_; ++i) {
             const glm::uvec3& t = m.triangles[i];
-            glm::vec3 sum(0);
-            for (int k = 0; k < 3; ++k) sum += m.positions[t[k]];
-            if (!numeric::is_finite(sum.x) || !numeric::is_finite(sum.y) || !numeric::is_finite(sum.z)) continue;
-            for (int k = 0; k < 3; ++k) level[i / branching].include(m.positions[t[k]]);
+            const glm::vec3 &a = m.positions[t.x], &b = m.positions[t.y], &c = m.positions[t.z];
+            if (!numeric::is_finite(a) || !numeric::is_finite(b) || !numeric::is_finite(c)) continue;
+            for (const glm::vec3& p : {a, b, c}) level[i / branching].include({p, p});
         }
         levels_.push_back(std::move(level));
         while (levels_.back().size() > 1) {
             const dynamic_array<box>& below = levels_.back();
             dynamic_array<box> above((below.size() + branching - 1) / branching);
-            for (std::size_t i = 0; i < below.size(); ++i) {
-                above[i / branching].include(below[i].low);
-                above[i / branching].include(below[i].high);
-            }
+            for (std::size_t i = 0; i < below.size(); ++i) above[i / branching].include(below[i]);
             levels_.push_back(std::move(above));
         }
     }
@@ -56,13 +53,14 @@ class plane_tree {
     struct box {
         glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
 
-        void include(const glm::vec3& p) {
+        void include(const box& other) {
             for (int i = 0; i < 3; ++i) {
-                low[i] = (std::min)(low[i], p[i]);
-                high[i] = (std::max)(high[i], p[i]);
+                low[i] = (std::min)(low[i], other.low[i]);
+                high[i] = (std::max)(high[i], other.high[i]);
             }
         }
         bool meets(const glm::dvec3& normal, double offset) const {
+            if (low.x > high.x) return false;  // empty
             double lowest = offset, highest = offset, size = numeric::abs(offset);
             for (int i = 0; i < 3; ++i) {
                 const double a = normal[i] * static_cast<double>(low[i]), b = normal[i] * static_cast<double>(high[i]);
@@ -71,7 +69,7 @@ class plane_tree {
                 size += (std::max)(numeric::abs(a), numeric::abs(b));
             }
             const double rounding = 1e-12 * size;
-            return lowest <= rounding && highest >= -rounding;  // false for an empty box
+            return lowest <= rounding && highest >= -rounding;
         }
     };
 

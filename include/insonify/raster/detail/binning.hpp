@@ -120,7 +120,7 @@ class run_reader {
     }
 
     std::span<const triangle_run> runs_;
-    std::uint32_t taken_ = 0;  ///< of the first of them
+    std::uint32_t taken_ = 0;  ///< triangles of the first run
 };
 
 /// The runs of one chunk.
@@ -151,7 +151,7 @@ class tile_runs {
         }
     }
 
-    /// Adds `offset` to all ids from `first` on; no run may contain ids on either side of it.
+    /// Adds `offset` to all ids from `first` on. @pre no run contains ids both below and above it
     void shift_ids(std::uint32_t first, std::uint32_t offset) {
         for (entry& e : entries_)
             if (e.run.first >= first) e.run.first += offset;

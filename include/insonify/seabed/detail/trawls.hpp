@@ -21,12 +21,12 @@ class trawl_furrows {
   public:
     trawl_furrows(const trawl_marks& t, std::uint64_t seed)
         : depth_(t.depth), width_(static_cast<double>(t.width)), hash_(seed, stream::trawls) {
-        require_range("trawl_marks.width", t.width, 1e-3f, 1e6f, "metres from 0.001");
+        require_range("trawl_marks.width", t.width, 1e-3f, 1e6f, "0.001 to 10^6 metres");
         require(t.density >= 0 && 4 * t.density * t.width <= 1, "trawl_marks.density", t.density,
                 "0 to 1 / (4 width) per metre");
         require_metres("trawl_marks.depth", t.depth);
         require_range("trawl_marks.directions", t.directions, 1, 8, "1 to 8");
-        require_range("trawl_marks.length", t.length, 1e-3f, 1e6f, "metres from 0.001");
+        require_range("trawl_marks.length", t.length, 1e-3f, 1e6f, "0.001 to 10^6 metres");
         if (t.density == 0 || t.depth == 0) return;
         random_sequence draw(seed, static_cast<std::uint32_t>(stream::trawls));
         const double turn = draw.uniform();

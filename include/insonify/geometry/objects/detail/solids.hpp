@@ -89,15 +89,15 @@ inline void append_box(mesh& into, const glm::dvec3& low, const glm::dvec3& high
         {{{low.x, low.y, high.z}, {high.x, low.y, high.z}, {high.x, high.y, high.z}, {low.x, high.y, high.z}}});
 }
 
-/// Two unit vectors across a direction.
+/// Two unit vectors, perpendicular to a direction and to each other.
 inline std::pair<glm::dvec3, glm::dvec3> across(const glm::dvec3& direction) {
     const glm::dvec3 along = unit(direction);
-    const glm::dvec3 away = std::abs(along.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 away = numeric::abs(along.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
     const glm::dvec3 u = unit(numeric::cross(away, along));
     return {u, numeric::cross(along, u)};
 }
 
-/// The corners of a regular polygon around a point.
+/// The corners of a regular polygon, inscribed in the ellipse with semi-axes u and v; no corner lies on an axis.
 inline section circle(const glm::dvec3& centre, const glm::dvec3& u, const glm::dvec3& v, int corners) {
     section out;
     for (int i = 0; i < corners; ++i) {

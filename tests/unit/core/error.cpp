@@ -1,0 +1,30 @@
+// Errors: their text and their types.
+#include <insonify/core/error.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+
+TEST_CASE("An error names the argument, its value in the fewest digits, and what was expected") {
+    using in::detail::to_text;
+    CHECK(to_text(0.1f) == "0.1");
+    CHECK(to_text(-0.25) == "-0.25");
+    CHECK(to_text(std::numeric_limits<std::int64_t>::min()) == "-9223372036854775808");
+    CHECK(to_text(true) == "true");
+    CHECK(to_text(std::numeric_limits<double>::quiet_NaN()) == "nan");
+    CHECK(to_text(-std::numeric_limits<float>::infinity()) == "-inf");
+    CHECK(to_text(std::numeric_limits<double>::lowest()) == "-1.7976931348623157e+308");
+
+    CHECK_NOTHROW(in::detail::require(true, "variance", 0.1, "at least 0"));
+    CHECK_THROWS_WITH(in::detail::require(false, "variance", -0.1, "at least 0"),
+                      "variance is -0.1, expected at least 0");
+}
+
+TEST_CASE("Both errors derive from exceptions of the standard library") {
+    CHECK_THROWS_AS(in::detail::raise(in::invalid_input("x")), std::invalid_argument);
+    CHECK_THROWS_AS(in::detail::raise(in::io_error("x")), std::runtime_error);
+}
