@@ -53,9 +53,9 @@ TEST_CASE("A stencil of a disc, of ones and zeros, covers what the disc does, to
     const auto bed = [](const sb::area& where) {
         return sb::mixed{.base = sb::flat{}, .layers = {{sb::rock{}, where, 0.6f, 0}}};
     };
-    const sb::grid grid{.origin = {2.03, 1.07}, .spacing = 0.11, .width = 120, .height = 120};
-    const auto by_picture = sb::sample(bed(sb::stencil{picture, {0, 0}, 0.1}), grid);
-    const auto by_disc = sb::sample(bed(sb::disc{{9, 8}, 5}), grid);
+    const sb::grid around{.origin = {2.03, 1.07}, .spacing = 0.11, .width = 120, .height = 120};
+    const auto by_picture = sb::sample(bed(sb::stencil{picture, {0, 0}, 0.1}), around);
+    const auto by_disc = sb::sample(bed(sb::disc{{9, 8}, 5}), around);
     for (int y = 0; y < 120; ++y)
         for (int x = 0; x < 120; ++x) {
             const double inside = 5 - std::hypot(2.03 + 0.11 * x - 9, 1.07 + 0.11 * y - 8);
