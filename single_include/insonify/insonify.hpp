@@ -3446,7 +3446,7 @@ class correlated_draws {
     correlated_draws(noise_key noise, dynamic_array<float> x, dynamic_array<float> y)
         : noise_(noise), taps_x_(std::move(x)), taps_y_(std::move(y)) {}
 
-    /// As of a pass.
+    /// See filter/concept.hpp.
     int rows_above() const { return 2 * (static_cast<int>(taps_y_.size()) - 1); }
 
     /// The draws of a run, in `into`.
@@ -3535,7 +3535,7 @@ class field_draws {
         correlated_.emplace(noise_, std::move(x), std::move(y));
     }
     bool is_correlated() const { return correlated_.has_value(); }
-    /// As of a pass.
+    /// See filter/concept.hpp.
     int rows_above() const { return correlated_ ? correlated_->rows_above() : 0; }
 
     /// The draws of a run; they lie in `buffer`.
@@ -25248,8 +25248,8 @@ class ping_fan {
             return r > height ? numeric::square_root(r * r - height * height) / height : 0;
         };
         const double spacing = step / low;
-        // Higher ground needs flatter rays to the range's end: as far as it lies below a sixteenth of the lowest's
-        // depth.
+        // Ground higher than the lowest is met up to the largest range by flatter rays. They end with those for ground
+        // at a sixteenth of the lowest one's depth.
         const double flattest = (std::max)(1.0, 16 * range / low);
         const double end =
             shape.above_highest > 0 ? (std::min)(tangent_at(range, shape.above_highest), flattest) : flattest;

@@ -29,7 +29,7 @@ class correlated_draws {
     correlated_draws(noise_key noise, dynamic_array<float> x, dynamic_array<float> y)
         : noise_(noise), taps_x_(std::move(x)), taps_y_(std::move(y)) {}
 
-    /// As of a pass.
+    /// See filter/concept.hpp.
     int rows_above() const { return 2 * (static_cast<int>(taps_y_.size()) - 1); }
 
     /// The draws of a run, in `into`.
@@ -118,7 +118,7 @@ class field_draws {
         correlated_.emplace(noise_, std::move(x), std::move(y));
     }
     bool is_correlated() const { return correlated_.has_value(); }
-    /// As of a pass.
+    /// See filter/concept.hpp.
     int rows_above() const { return correlated_ ? correlated_->rows_above() : 0; }
 
     /// The draws of a run; they lie in `buffer`.

@@ -6,7 +6,6 @@
 #include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/executor.hpp>
 #include <insonify/seabed/any.hpp>
-#include <insonify/seabed/detail/lattice.hpp>
 #include <insonify/seabed/detail/rise.hpp>
 #include <insonify/sonar/side_scan/side_scan.hpp>
 

@@ -57,8 +57,8 @@ class ping_fan {
             return r > height ? numeric::square_root(r * r - height * height) / height : 0;
         };
         const double spacing = step / low;
-        // Higher ground needs flatter rays to the range's end: as far as it lies below a sixteenth of the lowest's
-        // depth.
+        // Ground higher than the lowest is met up to the largest range by flatter rays. They end with those for ground
+        // at a sixteenth of the lowest one's depth.
         const double flattest = (std::max)(1.0, 16 * range / low);
         const double end =
             shape.above_highest > 0 ? (std::min)(tangent_at(range, shape.above_highest), flattest) : flattest;
