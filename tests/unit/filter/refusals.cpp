@@ -103,6 +103,15 @@ TEST_CASE("Gray, levels and references are refused by name") {
     CHECK_THAT(refusal([&] { use(in::match_histogram(all_nan)); }), ContainsSubstring("reference"));
     CHECK_THAT(refusal([&] { use(in::match_binned(all_nan)); }), ContainsSubstring("reference"));
     CHECK_THAT(refusal([&] { use(in::match_histogram(in::image<float>())); }), ContainsSubstring("reference"));
+    const auto match = [](const in::distribution& reference) {
+        return refusal([&] { use(in::match_histogram(reference)); });
+    };
+    CHECK(match({{0, 1}, {5, 9}}).empty());
+    CHECK_THAT(match({{0, 1}, {9}}), ContainsSubstring("reference.values.size()"));
+    for (const float second : {0.0f, -1.0f, static_cast<float>(infinity), static_cast<float>(nan_value)})
+        CHECK_THAT(match({{0, second}, {5, 9}}), ContainsSubstring("reference.values "));
+    CHECK_THAT(match({{0, 1}, {5, 5}}), ContainsSubstring("reference.cumulative "));
+    CHECK_THAT(match({{0, 1}, {0, 5}}), ContainsSubstring("reference.cumulative "));
     for (const int bins : {-1, 0, 1, 65537})
         CHECK_THAT(refusal([&] { use(in::match_binned(gray, bins)); }), ContainsSubstring("bins"));
 }
