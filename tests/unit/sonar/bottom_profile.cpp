@@ -170,6 +170,21 @@ TEST_CASE("A window that begins behind a step has the labels of the whole record
     }
 }
 
+TEST_CASE("A window close to the first return of a pitched ping holds that part of the whole recording") {
+    const in::scene s = over(ground{[](double, double) { return 0.0f; }});
+    for (const float pitch : {0.6f, -0.9f}) {
+        const in::ping p{.position = {0, 0, 5}, .pitch = pitch};
+        const float first = 5 / std::cos(pitch) + 0.2f;
+        const in::frame<in::labels> window = hear(s, p, first, first + 3, 60),
+                                    whole = hear(s, p, first - 3, first + 3, 120);
+        for (int b = 0; b < 60; ++b) {
+            CAPTURE(pitch, b);
+            CHECK(window.image(b, 0) == Approx(whole.image(60 + b, 0)).epsilon(1e-3));
+            CHECK(window.labels.shadow(b, 0) == in::labels::is_lit);
+        }
+    }
+}
+
 TEST_CASE("A buried target below a gap in front of a window echoes in it as in the whole recording") {
     in::scene s = over(ground{[](double x, double) { return x > 0.5 && x < 3 ? no_data : 0.0f; }, 0, 0});
     s.add(in::cube{.size = {2, 4, 2}}, {.position = {16, 0, -40}}, "cube");
