@@ -4730,12 +4730,20 @@ class match_histogram {
     template <countable_pixel Pixel>
     INSONIFY_MEMBER explicit match_histogram(const image<Pixel>& reference) : match_histogram(reference.view()) {}
 
-    /// @throws invalid_input for an empty distribution, or values and cumulative of different sizes
+    /// @throws invalid_input for an empty distribution, values and cumulative of different sizes, or either not rising
     INSONIFY_TAGGED explicit match_histogram(distribution reference) {
         detail::require(reference.total() > 0, "number of finite pixels in the reference", reference.total(),
                         "1 or more");
         detail::require(reference.values.size() == reference.cumulative.size(), "reference.values.size()",
                         reference.values.size(), "that of cumulative");
+        for (std::size_t i = 0; i < reference.values.size(); ++i) {
+            const float value = reference.values[i];
+            detail::require(numeric::is_finite(value) && (i == 0 || reference.values[i - 1] < value),
+                            "reference.values", value, "finite values, each above the one before");
+            const std::uint64_t up_to = reference.cumulative[i];
+            detail::require(up_to > (i == 0 ? 0 : reference.cumulative[i - 1]), "reference.cumulative", up_to,
+                            "numbers of pixels, each above the one before");
+        }
         reference_ = std::make_shared<const distribution>(std::move(reference));
     }
     /// Moving copies: a filter that was moved from still works.
