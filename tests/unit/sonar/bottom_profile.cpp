@@ -194,6 +194,20 @@ TEST_CASE("A buried target below a gap in front of a window echoes in it as in t
     CHECK(target_energy(hear(s, p, 12, 60, 480)) == Approx(whole).epsilon(0.001));
 }
 
+TEST_CASE("The buried part of a target is silent in a window whose rays begin in front of the sampled bottom") {
+    // Beyond a gap the rays reach down to the post's foot, and the steepest of them would meet its side.
+    in::scene s = over(ground{[](double x, double) { return x > 11 ? no_data : 0.0f; }});
+    s.add(in::cube{.size = {1, 1, 4}}, {.position = {9.6, 0, -1.5}}, "post");
+    const in::ping p{.position = {0, 0, 5}};
+    const in::frame<in::labels> window = hear(s, p, 9, 13, 100), whole = hear(s, p, 5, 13, 200);
+    CHECK(target_energy(window) > 0);
+    for (int b = 0; b < 100; ++b) {
+        CAPTURE(b);
+        CHECK(window.image(b, 0) == Approx(whole.image(100 + b, 0)).epsilon(1e-4));
+        CHECK(window.labels.instance(b, 0) == whole.labels.instance(100 + b, 0));
+    }
+}
+
 TEST_CASE("A ping's row does not depend on the pings that are recorded with it") {
     in::scene s =
         over(ground{[](double x, double) { return x > 1 && x < 2 ? no_data : 0.05f * static_cast<float>(std::sin(x)); },
