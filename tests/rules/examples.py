@@ -9,7 +9,7 @@ import re
 import sys
 
 PROGRAMS = [
-    "unit_test_fixture", "own_shaders", "depth_alone", "lit_points", "own_shadow_policy", "own_noise", "own_seabed",
+    "unit_test_fixture", "own_shaders", "depth_only", "lit_points", "own_shadow_policy", "own_noise", "own_seabed",
     "own_target", "many_targets", "survey_rows",
 ]
 MOST_LINES = 40
