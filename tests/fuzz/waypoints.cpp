@@ -7,7 +7,7 @@ using fuzzing::demand;
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {
-        const auto points = survey::parse_waypoints({reinterpret_cast<const char*>(data), size}, "way-points");
+        const auto points = survey::parse_waypoints({reinterpret_cast<const char*>(data), size}, "waypoints");
         demand(points.size() >= 2 && points.size() <= size, "a point takes characters");
         for (const glm::dvec2& p : points)
             demand(in::numeric::is_finite(p.x) && in::numeric::is_finite(p.y), "places are finite");
