@@ -21,7 +21,7 @@ namespace detail {
 inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
     namespace sb = in::seabed;
     const auto of = [](double metres) { return static_cast<float>(metres); };
-    // Most lengths of the models are 1 mm at least.
+    // The seabed models take most lengths from 1 mm on.
     const auto length = [](double metres) { return static_cast<float>((std::max)(metres, 1e-3)); };
     const auto feature = of(p.feature), fine = of(1.2 * pixel);
     // Relief is proportional to its length scale, which keeps its slopes.
@@ -74,8 +74,8 @@ inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
     return sand;
 }
 
-/// Places a piece of debris: within a wreck's length, mostly inside the hull or close to it, about as reflective. Chips
-/// are cut so that the length is about the root of their area.
+/// Places a piece of debris: within a wreck's length, mostly inside the hull or close to it, about as reflective. The
+/// square root of a chip's area is about the wreck's length.
 inline void scatter_about(const placed_object& wreck, const sonar_plan& p, in::random_sequence& dice,
                           placed_object& t) {
     const double reach = 0.35 * std::sqrt(p.chip * p.track);
