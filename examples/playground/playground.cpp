@@ -66,7 +66,7 @@ void add_target(in::scene& scene, const settings& s, glm::dvec2 at) {
     }
 }
 
-/// Gray values of a linear picture, by the page's display settings.
+/// Applies the colour map that the page selects.
 in::image<in::rgb8> shown(const in::image<float>& gray, int look) {
     return look == 0 ? gray | in::colormap::copper : look == 1 ? gray | in::colormap::gray : gray | in::colormap::sea;
 }
@@ -92,7 +92,7 @@ std::vector<std::uint8_t> pixels;
 
 extern "C" {
 
-/// @param list  of `settings`' values, in their order
+/// @param list  the members of `settings`, in their order
 /// @return size x size pixels, RGBA
 const std::uint8_t* draw(const double* list) {
     const auto whole = [&](int i) { return static_cast<int>(list[i]); };
