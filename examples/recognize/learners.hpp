@@ -20,7 +20,7 @@ struct sample {
     }
 };
 
-/// Answers of a classifier: a class each, and for two classes how sure it is of class 1.
+/// Predictions of a classifier: a class each, and for two classes the score of class 1.
 struct answers {
     std::vector<int> classes;
     std::vector<double> scores;
@@ -34,9 +34,9 @@ inline cv::Ptr<cv::ml::TrainData> train_data(const cv::Mat& rows, const std::vec
 
 }  // namespace detail
 
-/// Features are scaled to a mean of 0 and a deviation of 1 of the training rows. Dual coordinate descent is not in
-/// OpenCV; its solver of SVMs takes the same penalty.
-inline answers learn_by_vectors(const sample& train, const cv::Mat& test) {
+/// Trains a linear support vector machine and classifies the test rows. Features are scaled to mean 0 and standard
+/// deviation 1 over the training rows.
+inline answers svm_answers(const sample& train, const cv::Mat& test) {
     cv::Mat mean, scale;
     for (int column = 0; column < train.rows.cols; ++column) {
         cv::Scalar m, d;
@@ -68,7 +68,8 @@ inline answers learn_by_vectors(const sample& train, const cv::Mat& test) {
     return out;
 }
 
-inline answers learn_by_trees(const sample& train, const cv::Mat& test, std::uint64_t seed) {
+/// Trains a forest of random trees and classifies the test rows.
+inline answers forest_answers(const sample& train, const cv::Mat& test, std::uint64_t seed) {
     cv::setRNGSeed(static_cast<int>(seed));
     const auto forest = cv::ml::RTrees::create();
     forest->setMaxDepth(20);

@@ -1,4 +1,4 @@
-// Scores of answers: confusion matrices and statistics over runs.
+// Scores of predictions: confusion matrices and statistics over runs.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace recognition {
 
-/// Rows: true classes; columns: answers.
+/// Rows: true classes; columns: predictions.
 struct confusion {
     std::array<std::array<double, 3>, 3> counts{};
 
