@@ -1,8 +1,8 @@
-// A rendered survey line above a real one: beside_real [real waterfall [picture]]
+// A rendered survey line above a real one: beside_real [recorded line [out.png]]
 //
-// The real one, 461 pings of both sides out to 30 m at 600 kHz, shows a wreck below a tow that comes down to it. The
-// rendered one has a wreck of about the same size, a similar tow, and the look of the recipe `sonar`; it takes no pixel
-// from the real one.
+// The real one, 461 pings of both sides out to 30 m at 600 kHz, shows a wreck below a towfish that descends towards it.
+// The rendered one has a wreck of about the same size, a similar tow, and the look of the recipe `sonar`; no pixel of
+// it comes from the real one.
 #include <insonify/geometry/objects/boulder.hpp>
 #include <insonify/geometry/objects/footprint.hpp>
 #include <insonify/geometry/objects/hull.hpp>
@@ -72,7 +72,7 @@ in::scene wreck_on_gravel() {
     return scene;
 }
 
-/// The tow descends from 14 m to 4 m and sways about its course.
+/// The towfish descends from 14 m to 4 m and sways about its course.
 std::vector<in::ping> tow_of(const in::side_scan& rig) {
     std::vector<in::ping> track = in::track_of(rig);
     for (std::size_t i = 0; i < track.size(); ++i) {
@@ -117,8 +117,8 @@ int main(int argc, char** argv) try {
     const in::image<float> port = line_of(scene, rig, in::side::port),
                            starboard = line_of(scene, rig, in::side::starboard);
 
-    const bool is_there = argc > 1 || std::filesystem::exists(real);
-    const in::image<float> below = is_there ? examples::read_gray(real) : in::image<float>(2 * rig.bins, 1);
+    const bool has_real = argc > 1 || std::filesystem::exists(real);
+    const in::image<float> below = has_real ? examples::read_gray(real) : in::image<float>(2 * rig.bins, 1);
     in::image<float> page((std::max)(2 * rig.bins, below.width()), rig.pings + 12 + below.height(), 1);
     for (int y = 0; y < rig.pings; ++y)
         for (int x = 0; x < rig.bins; ++x)
@@ -126,7 +126,7 @@ int main(int argc, char** argv) try {
     for (int y = 0; y < below.height(); ++y)
         for (int x = 0; x < below.width(); ++x) page(x, rig.pings + 12 + y) = below(x, y);
     in::write_png(out, page | in::to_uint8);
-    if (!is_there) std::printf("no real line at %s: the rendered one alone\n", real.c_str());
+    if (!has_real) std::printf("no real line at %s: %s shows only the rendered one\n", real.c_str(), out.c_str());
 } catch (const std::exception& error) {
     std::fprintf(stderr, "beside_real: %s\n", error.what());
     return 1;
