@@ -76,7 +76,7 @@ CLASSIFIERS = {
     "gradients, RBF SVM": (gradients, scaled(SVC(C=3))),
     "smoothed gradients, boosted trees": (smooth_gradients, HistGradientBoostingClassifier(random_state=0)),
     "binary patterns, extra trees": (binary_patterns, ExtraTreesClassifier(300, random_state=0, class_weight="balanced")),
-    "binary patterns, logistic": (binary_patterns, scaled(LogisticRegression(C=0.1, max_iter=2000))),
+    "binary patterns, logistic regression": (binary_patterns, scaled(LogisticRegression(C=0.1, max_iter=2000))),
     "spectrum, RBF SVM": (spectrum, scaled(SVC(C=1))),
 }
 CLASSES = ("plane", "ship", "seafloor")
