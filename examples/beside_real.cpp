@@ -92,17 +92,17 @@ in::image<float> line_of(const in::scene& scene, in::side_scan rig, in::side sid
     const in::sonar_equation equation{in::pulse{2 * sonar.range_resolution}, in::horizontal_beam{sonar.beamwidth},
                                       in::vertical_beam{.beamwidth = sonar.vertical_beamwidth}, in::level_gain{}};
     const std::vector<in::ping> tow = tow_of(rig);
-    auto heard = in::record(scene, tow, rig, in::record_options<>{}.with(law).with(equation));
-    heard = in::with_tone(
-        std::move(heard), tow, rig,
+    auto recording = in::record(scene, tow, rig, in::record_options<>{}.with(law).with(equation));
+    recording = in::with_tone(
+        std::move(recording), tow, rig,
         {.drift = 2.6f, .drift_length = 9, .streaks = 0.6f, .streak_width = 1.2f, .streak_length = 25, .seed = 2});
-    heard.image =
-        std::move(heard.image) |
+    recording.image =
+        std::move(recording.image) |
         in::range_gain_error{.rms = 0.6f, .length = 250, .slope = -8, .seed = side == in::side::port ? 3u : 4u} |
         in::water_column{.bin = static_cast<float>(rig.bin()), .noise = 4e-4f, .noise_range = 30, .volume = 1e-4f};
-    heard = in::with_speckle(std::move(heard),
-                             in::seabed_speckle{.elsewhere = {.looks = 1}, .along_track = 0.6f, .seed = 6});
-    return std::move(heard.image) | in::ping_banding{.drift = 0.2f, .jitter = 0.2f} |
+    recording = in::with_speckle(std::move(recording),
+                                 in::seabed_speckle{.elsewhere = {.looks = 1}, .along_track = 0.6f, .seed = 6});
+    return std::move(recording.image) | in::ping_banding{.drift = 0.2f, .jitter = 0.2f} |
            in::display{.white = 4, .exponent = 0.5f};
 }
 

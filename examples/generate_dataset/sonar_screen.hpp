@@ -52,9 +52,9 @@ inline in::image<float> enlarged(const in::image<float>& from, double factor) {
 }
 
 /// Gray values as the plan's display shows them.
-inline in::image<float> on_screen(in::image<float> heard, const sonar_plan& p, auto& ex) {
+inline in::image<float> on_screen(in::image<float> intensity, const sonar_plan& p, auto& ex) {
     const auto show = [&](const auto& display) {
-        in::image<float> gray = in::apply(std::move(heard), display, ex);
+        in::image<float> gray = in::apply(std::move(intensity), display, ex);
         return p.enlarged > 1 ? enlarged(gray, p.enlarged) : gray;
     };
     const auto white = static_cast<float>(p.white);

@@ -121,10 +121,10 @@ const std::uint8_t* draw(const double* list) {
             rig.range = width;
             rig.bins = rig.pings = s.size;
             rig.ping_spacing = width / static_cast<float>(s.size);
-            auto heard = in::render(scene, rig);
-            if (s.speckle > 0) heard = in::with_speckle(std::move(heard), {.seed = seed});
-            gray = heard.image | in::display{};
-            labels = std::move(heard.labels);
+            auto recording = in::render(scene, rig);
+            if (s.speckle > 0) recording = in::with_speckle(std::move(recording), {.seed = seed});
+            gray = recording.image | in::display{};
+            labels = std::move(recording.labels);
         };
         if (s.mode == slant_range)
             hear(in::side_scan{});

@@ -115,19 +115,19 @@ in::image<float> rendered(const kind& k, std::uint32_t seed) {
                             .bins = width};
     const in::sonar_equation equation{in::pulse{0.03f}, in::horizontal_beam{0.0015f}, in::level_gain{}};
     const in::facet_backscatter echo{.facets = 0, .volume = k.volume};
-    auto heard = in::render(scene, rig, in::record_options<>{}.with(echo).with(equation));
+    auto recording = in::render(scene, rig, in::record_options<>{}.with(echo).with(equation));
 
     in::bottom_tone tone = k.tone;
     tone.seed = seed;
-    heard = in::with_tone(std::move(heard), rig, tone);
-    heard.image = std::move(heard.image) | in::water_column{.first_range = rig.first_range,
-                                                            .bin = static_cast<float>(rig.bin()),
-                                                            .noise = k.noise,
-                                                            .noise_range = static_cast<float>(slant)};
+    recording = in::with_tone(std::move(recording), rig, tone);
+    recording.image = std::move(recording.image) | in::water_column{.first_range = rig.first_range,
+                                                                    .bin = static_cast<float>(rig.bin()),
+                                                                    .noise = k.noise,
+                                                                    .noise_range = static_cast<float>(slant)};
     in::seabed_speckle speckle{.elsewhere = {.looks = 1}, .along_track = grain, .across_track = grain, .seed = seed};
     for (in::speckle_law& law : speckle.bottom) law = {.looks = 1};
-    heard = in::with_speckle(std::move(heard), speckle);
-    return std::move(heard.image) | shown;
+    recording = in::with_speckle(std::move(recording), speckle);
+    return std::move(recording.image) | shown;
 }
 
 constexpr const char* names[] = {"deviation", "skewness",    "kurtosis", "across",    "along",
