@@ -85,8 +85,8 @@ class classifier {
         machine_->setKernel(SVM::LINEAR);
         machine_->setTermCriteria({cv::TermCriteria::MAX_ITER + cv::TermCriteria::EPS, 20000, 1e-4});
         const cv::Mat kinds(std::vector<int>(f.kinds.begin(), f.kinds.end()), true);
-        const auto set_of = [](const cv::Mat& rows, const cv::Mat& answers) {
-            return cv::ml::TrainData::create(rows, cv::ml::ROW_SAMPLE, answers);
+        const auto set_of = [](const cv::Mat& rows, const cv::Mat& labels) {
+            return cv::ml::TrainData::create(rows, cv::ml::ROW_SAMPLE, labels);
         };
         const cv::ml::ParamGrid fixed(0, 0, 0), penalties(1e-3, 30, 10);
         machine_->trainAuto(set_of(f.rows, kinds), 5, penalties, fixed, fixed, fixed, fixed, fixed, true);
@@ -97,10 +97,10 @@ class classifier {
     }
 
     std::vector<std::size_t> operator()(const features& f) const {
-        cv::Mat answers;
-        machine_->predict(f.rows, answers);
+        cv::Mat predictions;
+        machine_->predict(f.rows, predictions);
         std::vector<std::size_t> kinds;
-        for (int i = 0; i < answers.rows; ++i) kinds.push_back(static_cast<std::size_t>(answers.at<float>(i)));
+        for (int i = 0; i < predictions.rows; ++i) kinds.push_back(static_cast<std::size_t>(predictions.at<float>(i)));
         return kinds;
     }
 

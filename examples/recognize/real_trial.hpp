@@ -64,9 +64,9 @@ inline int repeats_of(std::size_t real, std::size_t generated) {
 
 /// Trains and tests one point of the curve with one seed.
 /// @param three  classes are plane, ship and bottom instead of object and bottom
-inline std::array<answers, 2> train_and_test(const collection& real, const collection& made, const division& d,
-                                             std::size_t count, bool generated, bool three, std::uint64_t seed,
-                                             std::vector<int>& truth) {
+inline std::array<predictions, 2> train_and_test(const collection& real, const collection& made, const division& d,
+                                                 std::size_t count, bool generated, bool three, std::uint64_t seed,
+                                                 std::vector<int>& truth) {
     const auto label = [&](std::size_t k) { return three ? static_cast<int>(k) : k < 2 ? 1 : 0; };
     sample train;
     if (generated)
@@ -82,7 +82,7 @@ inline std::array<answers, 2> train_and_test(const collection& real, const colle
     cv::Mat test;
     truth.clear();
     for (const auto& [k, number] : d.test) test.push_back(real.of_class[k][number].shape), truth.push_back(label(k));
-    return {svm_answers(train, test), forest_answers(train, test, seed)};
+    return {svm_predictions(train, test), forest_predictions(train, test, seed)};
 }
 
 inline trial_result run_trial(const collection& real, const collection& made, std::size_t count, bool generated,
@@ -91,20 +91,23 @@ inline trial_result run_trial(const collection& real, const collection& made, st
     for (std::size_t seed = 1; seed <= seeds; ++seed) {
         const division d(real, max_real, seed);
         std::vector<int> truth;
-        const std::array<answers, 2> found = train_and_test(real, made, d, count, generated, false, seed, truth);
+        const std::array<predictions, 2> two_classes =
+            train_and_test(real, made, d, count, generated, false, seed, truth);
         for (std::size_t c = 0; c < 2; ++c) {
-            const std::vector<roc_point> curve = roc_of(truth, found[c].scores);
+            const std::vector<roc_point> curve = roc_of(truth, two_classes[c].scores);
             std::vector<int> predicted;
-            for (const double score : found[c].scores) predicted.push_back(score > 0 ? 1 : 0);
+            for (const double score : two_classes[c].scores) predicted.push_back(score > 0 ? 1 : 0);
             l.area[c].push_back(area_under(curve));
             l.balanced[c].push_back(balanced_accuracy(truth, predicted, 2));
             l.curves[c].push_back(curve);
         }
-        const std::array<answers, 2> named = train_and_test(real, made, d, count, generated, true, seed, truth);
+        const std::array<predictions, 2> three_classes =
+            train_and_test(real, made, d, count, generated, true, seed, truth);
         for (std::size_t c = 0; c < 2; ++c) {
-            l.three[c].push_back(balanced_accuracy(truth, named[c].classes, 3));
+            l.three[c].push_back(balanced_accuracy(truth, three_classes[c].classes, 3));
             for (std::size_t i = 0; i < truth.size(); ++i)
-                l.confusion[c][static_cast<std::size_t>(truth[i])][static_cast<std::size_t>(named[c].classes[i])] += 1;
+                l.confusion[c][static_cast<std::size_t>(truth[i])]
+                           [static_cast<std::size_t>(three_classes[c].classes[i])] += 1;
         }
     }
     return l;
@@ -131,7 +134,7 @@ inline double separability(const std::vector<chip>& real, const std::vector<chip
             else
                 train.add(all[i].first->texture, all[i].second);
         }
-        for (const double score : forest_answers(train, test, part + 1).scores) scores.push_back(score - share);
+        for (const double score : forest_predictions(train, test, part + 1).scores) scores.push_back(score - share);
     }
     return area_under(roc_of(truth, scores));
 }

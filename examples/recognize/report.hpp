@@ -64,8 +64,9 @@ inline std::string markdown(const std::vector<outcome>& outcomes, const class_co
         const confusion c = sum(o.transfer);
         out += text("\n| %s, %zu | cylinder | cube | sphere |\n|---|---:|---:|---:|\n", o.name.c_str(), o.images);
         for (std::size_t k = 0; k < 3; ++k)
-            out += text("| %s | %.1f %% | %.1f %% | %.1f %% |\n", classes[k].c_str(), 100 * c.counts[k][0] / c.shown(k),
-                        100 * c.counts[k][1] / c.shown(k), 100 * c.counts[k][2] / c.shown(k));
+            out +=
+                text("| %s | %.1f %% | %.1f %% | %.1f %% |\n", classes[k].c_str(), 100 * c.counts[k][0] / c.actual(k),
+                     100 * c.counts[k][1] / c.actual(k), 100 * c.counts[k][2] / c.actual(k));
     }
     return out;
 }
@@ -96,8 +97,8 @@ inline std::string svg(const std::vector<outcome>& outcomes) {
             out += text("<text x=\"%d\" y=\"%d\" text-anchor=\"end\">%s</text>\n", left - 6,
                         top + k * cell + cell / 2 + 4, name.c_str());
             for (int a = 0; a < 3; ++a) {
-                const auto shown = static_cast<std::size_t>(k), answered = static_cast<std::size_t>(a);
-                const double share = c.counts[shown][answered] / c.shown(shown);
+                const auto actual = static_cast<std::size_t>(k), predicted = static_cast<std::size_t>(a);
+                const double share = c.counts[actual][predicted] / c.actual(actual);
                 out += text(
                     "<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" fill=\"#b5651d\" fill-opacity=\"%.3f\" "
                     "stroke=\"#999\"/>\n",
