@@ -1,8 +1,8 @@
-// A rendered survey line above a real one: beside_real [real waterfall [picture]]
+// A rendered survey line above a real one: beside_real [recorded line [out.png]]
 //
-// The real one, 461 pings of both sides out to 30 m at 600 kHz, shows a wreck below a tow that comes down to it. The
-// rendered one has a wreck of about the same size, a similar tow, and the look of the recipe `sonar`; it takes no pixel
-// from the real one.
+// The real one, 461 pings of both sides out to 30 m at 600 kHz, shows a wreck below a towfish that descends towards it.
+// The rendered one has a wreck of about the same size, a similar tow, and the look of the recipe `sonar`; no pixel of
+// it comes from the real one.
 #include <insonify/geometry/objects/boulder.hpp>
 #include <insonify/geometry/objects/footprint.hpp>
 #include <insonify/geometry/objects/hull.hpp>
@@ -72,7 +72,7 @@ in::scene wreck_on_gravel() {
     return scene;
 }
 
-/// The tow descends from 14 m to 4 m and sways about its course.
+/// The towfish descends from 14 m to 4 m and sways about its course.
 std::vector<in::ping> tow_of(const in::side_scan& rig) {
     std::vector<in::ping> track = in::track_of(rig);
     for (std::size_t i = 0; i < track.size(); ++i) {
@@ -92,17 +92,17 @@ in::image<float> line_of(const in::scene& scene, in::side_scan rig, in::side sid
     const in::sonar_equation equation{in::pulse{2 * sonar.range_resolution}, in::horizontal_beam{sonar.beamwidth},
                                       in::vertical_beam{.beamwidth = sonar.vertical_beamwidth}, in::level_gain{}};
     const std::vector<in::ping> tow = tow_of(rig);
-    auto heard = in::record(scene, tow, rig, in::record_options<>{}.with(law).with(equation));
-    heard = in::with_tone(
-        std::move(heard), tow, rig,
+    auto recording = in::record(scene, tow, rig, in::record_options<>{}.with(law).with(equation));
+    recording = in::with_tone(
+        std::move(recording), tow, rig,
         {.drift = 2.6f, .drift_length = 9, .streaks = 0.6f, .streak_width = 1.2f, .streak_length = 25, .seed = 2});
-    heard.image =
-        std::move(heard.image) |
+    recording.image =
+        std::move(recording.image) |
         in::range_gain_error{.rms = 0.6f, .length = 250, .slope = -8, .seed = side == in::side::port ? 3u : 4u} |
         in::water_column{.bin = static_cast<float>(rig.bin()), .noise = 4e-4f, .noise_range = 30, .volume = 1e-4f};
-    heard = in::with_speckle(std::move(heard),
-                             in::seabed_speckle{.elsewhere = {.looks = 1}, .along_track = 0.6f, .seed = 6});
-    return std::move(heard.image) | in::ping_banding{.drift = 0.2f, .jitter = 0.2f} |
+    recording = in::with_speckle(std::move(recording),
+                                 in::seabed_speckle{.elsewhere = {.looks = 1}, .along_track = 0.6f, .seed = 6});
+    return std::move(recording.image) | in::ping_banding{.drift = 0.2f, .jitter = 0.2f} |
            in::display{.white = 4, .exponent = 0.5f};
 }
 
@@ -117,8 +117,8 @@ int main(int argc, char** argv) try {
     const in::image<float> port = line_of(scene, rig, in::side::port),
                            starboard = line_of(scene, rig, in::side::starboard);
 
-    const bool is_there = argc > 1 || std::filesystem::exists(real);
-    const in::image<float> below = is_there ? examples::read_gray(real) : in::image<float>(2 * rig.bins, 1);
+    const bool has_real = argc > 1 || std::filesystem::exists(real);
+    const in::image<float> below = has_real ? examples::read_gray(real) : in::image<float>(2 * rig.bins, 1);
     in::image<float> page((std::max)(2 * rig.bins, below.width()), rig.pings + 12 + below.height(), 1);
     for (int y = 0; y < rig.pings; ++y)
         for (int x = 0; x < rig.bins; ++x)
@@ -126,7 +126,7 @@ int main(int argc, char** argv) try {
     for (int y = 0; y < below.height(); ++y)
         for (int x = 0; x < below.width(); ++x) page(x, rig.pings + 12 + y) = below(x, y);
     in::write_png(out, page | in::to_uint8);
-    if (!is_there) std::printf("no real line at %s: the rendered one alone\n", real.c_str());
+    if (!has_real) std::printf("no real line at %s: %s shows only the rendered one\n", real.c_str(), out.c_str());
 } catch (const std::exception& error) {
     std::fprintf(stderr, "beside_real: %s\n", error.what());
     return 1;

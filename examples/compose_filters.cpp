@@ -1,6 +1,6 @@
 // Filters on a user's picture: compose_filters in.png out.png [reference picture]
 //
-// Histogram match, speckle, a function of the program and the colour map fuse into one pass over the pixels.
+// Histogram matching, speckle, a lambda and the colour map fuse into one pass over the pixels.
 #include <insonify/filter/colormap.hpp>
 #include <insonify/filter/match.hpp>
 #include <insonify/filter/noise.hpp>

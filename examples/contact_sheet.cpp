@@ -78,7 +78,7 @@ std::map<std::string, std::vector<entry>> read_manifest(const std::string& folde
 
 /// A picture shrunk to a tile, each pixel the mean of the pixels it covers.
 in::image<float> shrink(const in::image<float>& picture) {
-    in::image<float> small_one(tile, tile);
+    in::image<float> thumbnail(tile, tile);
     for (int y = 0; y < tile; ++y)
         for (int x = 0; x < tile; ++x) {
             const auto span = [](int i, int pixels) {
@@ -90,9 +90,9 @@ in::image<float> shrink(const in::image<float>& picture) {
             float sum = 0;
             for (int v = y0; v < y1; ++v)
                 for (int u = x0; u < x1; ++u) sum += picture(u, v);
-            small_one(x, y) = sum / static_cast<float>((x1 - x0) * (y1 - y0));
+            thumbnail(x, y) = sum / static_cast<float>((x1 - x0) * (y1 - y0));
         }
-    return small_one;
+    return thumbnail;
 }
 
 }  // namespace
@@ -102,23 +102,23 @@ int main(int argc, char** argv) try {
     const std::string folder = argv[1];
     const int number = argc > 3 ? std::atoi(argv[3]) : 6;
     if (number < 1) throw in::invalid_input("images per class: '" + std::string(argv[3]) + "' is not a number from 1");
-    const auto most = static_cast<std::size_t>(number);
+    const auto per_class = static_cast<std::size_t>(number);
     const auto classes = read_manifest(folder);
     if (classes.empty()) throw in::io_error(folder + ": has no images to show");
 
     std::size_t columns = 0;
-    for (const auto& [name, entries] : classes) columns = (std::max)(columns, (std::min)(most, entries.size()));
+    for (const auto& [name, entries] : classes) columns = (std::max)(columns, (std::min)(per_class, entries.size()));
     in::image<float> sheet(static_cast<int>(columns) * (tile + gap) + gap,
                            caption + static_cast<int>(classes.size()) * (tile + gap + caption) + gap, 0.12f);
     const bool has_scale = classes.begin()->second.front().metres > 0;
     if (has_scale) examples::write_text(sheet, gap + 2, gap, "sound travels from left to right", 1.0f);
     int top = gap + (has_scale ? caption : 0);
     for (const auto& [name, entries] : classes) {
-        for (std::size_t i = 0; i < (std::min)(most, entries.size()); ++i) {
+        for (std::size_t i = 0; i < (std::min)(per_class, entries.size()); ++i) {
             const int left = gap + static_cast<int>(i) * (tile + gap);
-            const in::image<float> small_one = shrink(examples::read_gray(folder + "/" + entries[i].file));
+            const in::image<float> thumbnail = shrink(examples::read_gray(folder + "/" + entries[i].file));
             for (int y = 0; y < tile; ++y)
-                std::copy_n(small_one.row(y).begin(), tile, sheet.row(top + y).begin() + left);
+                std::copy_n(thumbnail.row(y).begin(), tile, sheet.row(top + y).begin() + left);
             if (entries[i].metres > 0)
                 examples::draw_scale_bar(sheet, left + tile, top + tile, tile, entries[i].metres, 1.0f, 0.12f);
             examples::write_text(

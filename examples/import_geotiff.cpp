@@ -1,7 +1,7 @@
 // A GeoTIFF of depths or heights as the bottom of a picture: import_geotiff <file> <out.png> [-1 for depths]
 //
-// GDAL reads it (GeoTIFF and a hundred other formats). Gaps without data are filled up to ten vertices wide. Sand of
-// the survey's own roughness adds the detail below its spacing.
+// GDAL reads the file (GeoTIFF and a hundred other formats). Gaps of up to ten vertices without data are filled. The
+// roughness of medium sand adds detail below the file's spacing.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>

@@ -15,7 +15,7 @@ struct sand_waves {
     static constexpr in::seabed::type_properties kind{in::seabed::own_type(0), "sand waves", 0.55f, {.texture = 12}};
     double height = 0.3, length = 6;  ///< metres
 
-    /// Heights along a row; waves that the grid can't carry fade out.
+    /// Heights along a row; waves too short for the grid fade out.
     void row(const in::seabed::scanline& line, std::span<float> heights) const {
         const double amplitude = 0.5 * height * static_cast<double>(in::seabed::carried(length, line.grid_spacing));
         for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -27,7 +27,7 @@ struct sand_waves {
 };
 
 int main() {
-    in::scene scene;  // a million metres away is as good as here; patches of ripples lie between the waves
+    in::scene scene;  // 1000 km from the origin, at full precision; patches of ripples lie between the waves
     scene.seabed = in::seabed::blend{.first = sand_waves{}, .second = in::seabed::ripples{.seed = 2}, .patch = 15};
     scene.add(in::cube{.size = glm::vec3(0.5f)}, {.position = {1e6 + 9, 5, 0.4}}, "cube");
 

@@ -1,4 +1,4 @@
-// Rows of a survey into a caller's buffer, a few pings at a time, as a simulator hands them out: survey_rows.
+// Rows of a survey into a caller's buffer, a few pings at a time, as a simulator produces them: survey_rows.
 #include <insonify/insonify.hpp>
 #include <insonify/sonar/side_scan/recording.hpp>
 

@@ -12,7 +12,7 @@ def chromium_program():
 
 
 class Browser:
-    """Chromium without a window, spoken to by the DevTools protocol over two pipes."""
+    """Headless Chromium, controlled by the DevTools protocol over two pipes."""
 
     def __init__(self, program, folder):
         to_child, self.write_end = os.pipe()

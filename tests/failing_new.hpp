@@ -11,14 +11,14 @@
 
 namespace failing_new {
 
-inline std::atomic<long> calls{0};         ///< so far
-inline std::atomic<long> in_use{0};        ///< allocated and not freed
-inline std::atomic<long> fails_at{0};      ///< number of the call that fails; 0: none
-inline std::atomic<bool> for_good{false};  ///< whether all later calls fail, too
+inline std::atomic<long> calls{0};              ///< so far
+inline std::atomic<long> in_use{0};             ///< allocated and not freed
+inline std::atomic<long> fails_at{0};           ///< number of the call that fails; 0: none
+inline std::atomic<bool> keeps_failing{false};  ///< whether all later calls fail, too
 
 inline void* allocate(std::size_t size, std::size_t alignment = alignof(std::max_align_t)) noexcept {
     const long number = ++calls, limit = fails_at;
-    if (limit > 0 && (for_good ? number >= limit : number == limit)) return nullptr;
+    if (limit > 0 && (keeps_failing ? number >= limit : number == limit)) return nullptr;
     void* const memory = alignment > alignof(std::max_align_t)
                              ? std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment)
                              : std::malloc(size > 0 ? size : 1);
@@ -35,16 +35,16 @@ inline void release(void* memory) noexcept {
     std::free(memory);
 }
 
-/// Runs `use` once for each of its allocations, which fails: first alone, then with all that follow. Checks that `use`
-/// throws std::bad_alloc or returns its usual result, and leaks nothing.
-/// @returns how many allocations failed
+/// Runs `use` once for each of its allocations and makes that allocation fail: first alone, then with all later ones.
+/// Checks that `use` throws std::bad_alloc or returns its usual result, and leaks nothing.
+/// @returns the number of allocations that failed
 template <class Use>
 long in_turn(const Use& use) {
     const auto expected = use();
     long failed = 0;
     for (const bool all : {false, true})
         for (long at = 1;; ++at) {
-            for_good = all;
+            keeps_failing = all;
             const long before = in_use;
             calls = 0;
             fails_at = at;
@@ -54,14 +54,14 @@ long in_turn(const Use& use) {
             } catch (const std::bad_alloc&) {
             }
             fails_at = 0;
-            const bool struck = calls >= at;
+            const bool was_reached = calls >= at;
             const long left = in_use - before;
             if (left != 0 || !is_right) {
-                INFO("allocation " << at << (all ? " and all that follow" : ""));
+                INFO("allocation " << at << (all ? " and all later ones" : ""));
                 CHECK(left == 0);
                 CHECK(is_right);
             }
-            if (!struck) break;
+            if (!was_reached) break;
             ++failed;
         }
     return failed;

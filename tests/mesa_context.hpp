@@ -45,7 +45,7 @@ class context {
     std::string renderer_;
 };
 
-/// A linked program of the current context; 0 if a source is refused.
+/// A linked program of the current context; 0 if a shader does not compile.
 inline GLuint program_of(const char* vertex, const char* fragment) {
     const GLuint program = glCreateProgram();
     for (const auto& [kind, source] : {std::pair{GL_VERTEX_SHADER, vertex}, std::pair{GL_FRAGMENT_SHADER, fragment}}) {

@@ -21,14 +21,14 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline const std::vector<double> not_finite{nan_value, infinity, -infinity};
 inline const std::vector<double> not_above_0{nan_value, infinity, -infinity, -1, 0};
 inline const std::vector<double> below_0{nan_value, infinity, -infinity, -1};
-/// Outside of `least` to `most`.
-inline std::vector<double> outside(double least, double most) {
-    const double step = 0.01 * (most - least) + 1e-3;
-    return {nan_value, infinity, -infinity, least - step, most + step};
+/// Outside of [low, high].
+inline std::vector<double> outside(double low, double high) {
+    const double step = 0.01 * (high - low) + 1e-3;
+    return {nan_value, infinity, -infinity, low - step, high + step};
 }
 /// The same for whole numbers.
-inline std::vector<double> outside_whole(double least, double most) {
-    return {least - 1, most + 1, -1e9};
+inline std::vector<double> outside_whole(double low, double high) {
+    return {low - 1, high + 1, -1e9};
 }
 
 /// Angles that are not finite, or of too many turns.
@@ -60,8 +60,8 @@ std::string refusal(const Use& use) {
     return {};
 }
 
-/// Checks that `use` takes `good`, and refuses it by name with each of the values in each of the fields.
-/// @param owner  how messages begin: "overhead." before "altitude"
+/// Checks that `use` accepts `good`, and refuses each listed value of each field with a message that names the field.
+/// @param owner  prefix of the field in messages: "overhead." before "altitude"
 template <class T, class Use>
 void check_fields(const std::string& owner, const T& good, const Use& use, std::initializer_list<field<T>> fields) {
     INFO(owner);

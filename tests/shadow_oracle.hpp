@@ -3,11 +3,11 @@
 //
 // The rule. A pixel's point is where the ray through its centre meets the triangle shown. It is dark if the triangle's
 // side towards the camera faces away from the light or is parallel to it, or if any other triangle, seen from either
-// side, stands strictly between the point and the light. Nothing is culled.
+// side, lies strictly between the point and the light. Nothing is culled.
 //
 // A picture's corners are rounded to sub-pixels, so a centre may miss the triangle shown. The point is then the one of
-// the triangle's outline that is nearest on the screen, and what merely touches it there doesn't block. Such pixels are
-// `beside` and counted apart: the triangle they show is decided by visibility, not by shadows.
+// the triangle's outline that is nearest on the screen, and triangles that touch it there don't block. Such pixels are
+// `beside` and counted separately: visibility decides the triangle that they show, not shadows.
 //
 // Signs are computed in long double, of vectors from the point. What depends on less than 1e-12 of the lengths that are
 // compared, or on whether another triangle passes within 1e-10 altitudes of the point, is undecided. Triangles in the
@@ -126,7 +126,7 @@ class oracle {
     }
 
   private:
-    /// Light in the rig's frame: a direction to it, or its place.
+    /// Light in the rig's frame: the direction to it, or its position.
     struct source {
         bool is_near;
         vector at;
@@ -162,7 +162,7 @@ class oracle {
         vector normal;
         real offset;
 
-        /// Anchored at the nearest corner: of one at 1e38 m, nothing would be left.
+        /// Anchored at the nearest corner: with a corner at 1e38 m, cancellation would leave no digits.
         plane(const vector& a, const vector& b, const vector& c) {
             const bool a_first = size(a) <= size(b) && size(a) <= size(c), b_first = size(b) <= size(c);
             const vector &p = a_first   ? a
@@ -201,8 +201,8 @@ class oracle {
             return std::abs(e.value) <= limit * size(ray) * size(from) * size(to - from) ? 0 : e.value > 0 ? 1 : -1;
         };
         const int sides[] = {side(b, c), side(c, a), side(a, b)};
-        const auto [least, most] = std::minmax({sides[0], sides[1], sides[2]});
-        receiver at{{}, p.normal, id, least * most < 0 || along == 0 || p.offset / along <= 0, false};
+        const auto [lowest, highest] = std::minmax({sides[0], sides[1], sides[2]});
+        receiver at{{}, p.normal, id, lowest * highest < 0 || along == 0 || p.offset / along <= 0, false};
         const vector from_eye = at.beside ? nearest_on_outline(ray, {a, b, c}) : p.offset / along * ray;
         at.point = eye() + from_eye;
         const real facing = -dot(p.normal, ray);
@@ -211,8 +211,8 @@ class oracle {
         return at;
     }
 
-    /// Of the points of a triangle's edges, the one that appears nearest to a ray. All as seen from the eye; what lies
-    /// above it is left out.
+    /// The point on a triangle's edges that appears nearest to a ray. Vectors start at the eye; parts above it are
+    /// skipped.
     vector nearest_on_outline(const vector& ray, const std::array<vector, 3>& corners) const {
         const real z_near = -1e-6L * static_cast<real>(unit_);
         real closest = std::numeric_limits<real>::infinity();
@@ -226,11 +226,11 @@ class oracle {
             const real px = -p.x / p.z, py = -p.y / p.z, dx = -q.x / q.z - px, dy = -q.y / q.z - py;
             const real square = dx * dx + dy * dy;
             const real way = square > 0 ? ((ray.x - px) * dx + (ray.y - py) * dy) / square : 0;
-            const real held = std::clamp<real>(way, 0, 1);
-            const real off = std::hypot(px + held * dx - ray.x, py + held * dy - ray.y);
+            const real clamped = std::clamp<real>(way, 0, 1);
+            const real off = std::hypot(px + clamped * dx - ray.x, py + clamped * dy - ray.y);
             if (off >= closest) continue;
             closest = off;
-            const real weight_p = (1 - held) / p.z, weight_q = held / q.z;  // perspective-correct
+            const real weight_p = (1 - clamped) / p.z, weight_q = clamped / q.z;  // perspective-correct
             nearest = p + weight_q / (weight_p + weight_q) * (q - p);
         }
         return nearest;
@@ -245,8 +245,8 @@ class oracle {
         const double end = light.is_near ? 1 : std::numeric_limits<double>::infinity();
         const glm::dvec3 from = at.point.rounded(), direction = toward.rounded();
         tree_.along(from, direction, end, [&](std::uint32_t id) {
-            if (id == at.triangle || is_passed(triangles_[id], from, direction)) return false;
-            switch (look(light, at, toward, id)) {
+            if (id == at.triangle || is_missed(triangles_[id], from, direction)) return false;
+            switch (test_triangle(light, at, toward, id)) {
                 case verdict::dark: dark = true; break;
                 case verdict::undecided: unsure = true; break;
                 default: break;
@@ -256,8 +256,8 @@ class oracle {
         return dark ? verdict::dark : unsure ? verdict::undecided : verdict::lit;
     }
 
-    /// Whether a ray clearly misses a triangle. Computed in doubles, to spare most triangles the long doubles.
-    bool is_passed(const triangle& t, const glm::dvec3& from, const glm::dvec3& d) const {
+    /// Whether a ray clearly misses a triangle. Computed in double, so that few triangles need long double.
+    bool is_missed(const triangle& t, const glm::dvec3& from, const glm::dvec3& d) const {
         const glm::dvec3 a = t.a - from, b = t.b - from, c = t.c - from;
         const auto size = [](const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
         bool left = false, right = false;
@@ -274,8 +274,8 @@ class oracle {
         return left && right;
     }
 
-    /// Whether one triangle blocks the light (dark), lets it pass (lit), or is too close to tell (undecided).
-    verdict look(const source& light, const receiver& at, const vector& toward, std::uint32_t id) const {
+    /// Whether one triangle blocks the light (dark), does not (lit), or is too close to tell (undecided).
+    verdict test_triangle(const source& light, const receiver& at, const vector& toward, std::uint32_t id) const {
         const triangle& t = triangles_[id];
         const vector a = vector(t.a) - at.point, b = vector(t.b) - at.point, c = vector(t.c) - at.point;
         const plane p(a, b, c);
@@ -283,9 +283,9 @@ class oracle {
         const real error = 1e-16L * static_cast<real>(unit_);
         const int sides[] = {edge_side(toward, b, c, error).sign, edge_side(toward, c, a, error).sign,
                              edge_side(toward, a, b, error).sign};
-        const auto [least, most] = std::minmax({sides[0], sides[1], sides[2]});
-        if (least < 0 && most > 0) return verdict::lit;
-        const bool is_hit = least == most && least != 0;
+        const auto [lowest, highest] = std::minmax({sides[0], sides[1], sides[2]});
+        if (lowest < 0 && highest > 0) return verdict::lit;
+        const bool is_hit = lowest == highest && lowest != 0;
         const real along = dot(p.normal, toward);
         if (std::abs(along) <= tiny * size(p.normal) * size(toward)) return verdict::undecided;
         const real way = p.offset / along, touch = 1e-10L * static_cast<real>(unit_) / size(toward);

@@ -1,6 +1,6 @@
 # Completes the options of the generator, of the example programs and of tools/ in bash: source tools/completion.bash
 #
-# The tests compare the generator's with those in examples/generate_dataset/options.cpp. Built programs are asked by --help.
+# A test compares the generator's with examples/generate_dataset/options.cpp. Those of built programs come from their --help.
 
 _insonify_generate() {
     local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} values=

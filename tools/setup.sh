@@ -78,7 +78,7 @@ known_options() {
     usage | grep -oE -- '--[a-z][a-z-]*' | sort -u
 }
 
-# Prints the known option that is at most two edits (Levenshtein) from a word; of equals, the one that begins alike.
+# Prints the known option closest to a word, within two edits (Levenshtein); ties go to the longer common prefix.
 similar() {
     known_options | awk -v word="$1" '
         BEGIN { least = 3 }

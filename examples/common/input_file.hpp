@@ -1,5 +1,4 @@
-// Files that a user names as input: read whole; pipes, devices and files above a limit are refused. Control characters
-// of text files.
+// Reads input files that a user names. Refuses folders, pipes, devices and files above a size limit.
 #pragma once
 
 #include <insonify/io/file.hpp>
@@ -14,17 +13,17 @@ namespace examples {
 /// Default limit of an input's size, bytes.
 inline constexpr std::uint64_t usual_input_limit = std::uint64_t{1} << 30;
 
-/// Whether a character is a control character that plain text does not hold; tabs and ends of lines are none.
+/// Whether a character is a control character other than a tab, carriage return or line feed.
 inline bool is_control(char c) {
     return (c >= '\0' && c < ' ' && c != '\t' && c != '\r' && c != '\n') || c == '\x7F';
 }
 
-/// @param raise  how the user raises the limit, for the error's text
+/// @param raise  how the user raises the limit, for the error message
 /// @throws insonify::io_error, naming the file, for a pipe, device or folder, a file above the limit, or one that can't
 /// be read
 inline std::string read_input(const std::string& path, std::uint64_t limit = usual_input_limit,
                               const std::string& raise = "take a smaller file") {
-    // A pipe or a device is recognized before it is opened, which could wait forever.
+    // Checked before the file is opened, since opening a pipe can block forever.
     std::error_code failed;
     const std::filesystem::file_status status = std::filesystem::status(path, failed);
     if (failed && status.type() != std::filesystem::file_type::not_found)

@@ -6,7 +6,7 @@
 
 namespace examples {
 
-/// The shadow of the vertex that casts farthest; those below the datum are buried and cast none. Metres, from the
+/// The shadow of the vertex that casts farthest; vertices below the datum are buried and cast none. Metres, from the
 /// sonar.
 struct longest_shadow {
     double tip = 0;                            ///< ground range where the shadow ends; 0 if no vertex casts one
@@ -15,7 +15,7 @@ struct longest_shadow {
     double height = -1e30;                     ///< of the target's highest point above the datum
 };
 
-/// @param visit  is called with each vertex as the ping sees it: across and along the track, and up
+/// @param visit  called with each vertex in the ping's frame: across track, along track, up
 template <class Visit>
 longest_shadow shadow_of(const insonify::target& t, const insonify::ping_frame& frame, double altitude,
                          const Visit& visit) {

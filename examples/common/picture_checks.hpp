@@ -1,4 +1,4 @@
-// Checks of PNG and JPEG files that stb_image leaves out, for files from users.
+// Checks that stb_image does not make of PNG and JPEG files, for files from users.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@ namespace examples {
 
 inline constexpr std::string_view png_signature = "\x89PNG\r\n\x1A\n", jpeg_signature = "\xFF\xD8\xFF";
 
-/// Whether each chunk of a PNG lies within its bytes. stb_image allocates what a chunk's length says before it reads
-/// it.
+/// Whether each chunk of a PNG lies within its bytes. stb_image allocates the length that a chunk claims before it
+/// reads the chunk.
 inline bool has_whole_chunks(std::string_view png) {
     const auto byte = [&](std::size_t at) { return static_cast<std::uint64_t>(static_cast<unsigned char>(png[at])); };
     for (std::uint64_t at = 8; at + 8 <= png.size();) {

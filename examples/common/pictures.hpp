@@ -1,5 +1,5 @@
 // Reads users' pictures as gray values from 0 to 1: PGM, PPM and PFM by insonify; PNG, JPEG and BMP by stb_image.
-// The content decides which, not the file's name.
+// The format is detected from the content, not from the file's name.
 #pragma once
 
 #include <insonify/filter/gray.hpp>

@@ -1,4 +1,4 @@
-// How programs that read their options by CLI11 refuse a command line.
+// Reports an invalid command line of a program that parses its options with CLI11.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace examples {
 
-/// Insertions, deletions and replacements that make one word another (Levenshtein).
+/// Number of insertions, deletions and replacements that turn one word into another (Levenshtein distance).
 inline std::size_t edits_between(const std::string& from, const std::string& to) {
     std::vector<std::size_t> row(to.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -28,7 +28,7 @@ inline std::size_t edits_between(const std::string& from, const std::string& to)
     return row[to.size()];
 }
 
-/// The option whose name is closest to a word, empty if none is within two edits. Of equals, the one that begins alike.
+/// The option whose name is closest to a word, empty if none is within two edits. Ties go to the longer common prefix.
 inline std::string similar_option(const CLI::App& app, const std::string& word) {
     std::string best;
     std::pair least{std::size_t{3}, std::ptrdiff_t{0}};  // edits, and minus the characters in common
@@ -44,8 +44,8 @@ inline std::string similar_option(const CLI::App& app, const std::string& word) 
     return best;
 }
 
-/// Ends the program: after --help with 0; otherwise with 2, having named the fault and, for an unknown option, the one
-/// that is spelt like it.
+/// Prints the help or the error and ends the program: with 0 after --help, otherwise with 2. For an unknown option,
+/// suggests the one with the most similar name.
 [[noreturn]] inline void exit_after(const CLI::App& app, const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) std::exit(app.exit(error));
     bool is_unknown = false;

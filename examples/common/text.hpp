@@ -14,7 +14,7 @@
 
 namespace examples {
 
-/// Writes a line of some 10 pixels in height, its upper left corner at (x, y); what lies outside is cut off.
+/// Writes a line of text, about 10 pixels high, with its upper left corner at (x, y), clipped to the image.
 template <class Pixel>
 void write_text(insonify::image<Pixel>& sheet, int x, int y, std::string text, const Pixel& color) {
     struct corner {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Programs explain themselves by --help, and refuse an unknown option by name, writing no file: usage_test.py <program>...
+"""Programs print their usage for --help, name an unknown option, and write no file: usage_test.py <program>...
 
-What generate_dataset says is in its usage.txt, for tools/generate to say before it is built.
+usage.txt of generate_dataset holds its help, which tools/generate prints before the program is built.
 """
 
 import pathlib

@@ -64,7 +64,7 @@ class strict_config : public CLI::ConfigTOML {
         if (in_array) refuse(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')), "']' is missing");
     }
 
-    /// The text without comments, which CLI11 takes for a part of the value behind a list.
+    /// The text without comments, which CLI11 takes for a part of the value after a list.
     static std::string without_comments(const std::string& text) {
         std::istringstream lines(text);
         std::string bare, line;

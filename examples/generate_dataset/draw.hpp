@@ -139,24 +139,24 @@ in::image<float> render_side_scan(const options& o, const plan& p, const shared_
 
     const in::horizontal_beam beam{static_cast<float>(p.beam)};
     const in::sonar_equation equation{beam, in::level_gain{}};
-    auto heard = in::render(scene, rig, in::record_options<>{}.with(equation), ex);
-    for (float& intensity : heard.image.pixels()) intensity += static_cast<float>(p.noise);
+    auto recording = in::render(scene, rig, in::record_options<>{}.with(equation), ex);
+    for (float& intensity : recording.image.pixels()) intensity += static_cast<float>(p.noise);
     for (const noise_step& step : noise_steps(o))
         if (step.kind == "seabed") {
             // The beamwidth decides over how many pings the speckle stays correlated.
             const double slant = in::range_geometry::slant_range(ground_range, p.altitude);
             const double pings = beam.speckle_length(slant, sound_speed / frequency) / pixel;
-            heard = in::with_speckle(std::move(heard),
-                                     {.along_track = static_cast<float>((std::min)(pings, 16.0)), .seed = p.noise_seed},
-                                     ex);
+            recording = in::with_speckle(
+                std::move(recording),
+                {.along_track = static_cast<float>((std::min)(pings, 16.0)), .seed = p.noise_seed}, ex);
         }
-    d.labels = std::move(heard.labels);
+    d.labels = std::move(recording.labels);
     d.geometry = geometry_of(rig, scene.targets.front(), d.labels.targets.front());
     const auto white = static_cast<float>(p.white), decibels = static_cast<float>(p.display_range);
     if (p.display == "decibels")
-        return in::apply(std::move(heard.image), in::decibel_display{.white = white, .range = decibels}, ex);
+        return in::apply(std::move(recording.image), in::decibel_display{.white = white, .range = decibels}, ex);
     const float exponent = p.display == "power" ? 1.0f : 0.5f;
-    return in::apply(std::move(heard.image), in::display{.white = white, .exponent = exponent}, ex);
+    return in::apply(std::move(recording.image), in::display{.white = white, .exponent = exponent}, ex);
 }
 
 inline rendered_image draw(const options& o, const plan& p, const shared_inputs& shared, auto& ex) {

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Memory and rate stay constant over many chips in one process: endurance_test.py <generate_dataset>
 
-INSONIFY_CHIPS: how many (2000; tools/test --full: 100000). INSONIFY_CHIP_SIZE: their pixels (32). Processor time is
-measured, not the clock's, for each hundredth of the set; other programs disturb it upwards alone, so the lower fifth
-of the measurements is compared. Below 20000 chips the rate is printed and not judged.
+INSONIFY_CHIPS: number of chips (2000; tools/test --full: 100000). INSONIFY_CHIP_SIZE: their pixels a side (32). Processor
+time, not wall-clock time, is measured for each hundredth of the set. Other programs only increase it, so the 20th
+percentiles are compared. Below 20000 chips the rate is printed and not checked.
 """
 
 import os
@@ -50,7 +50,7 @@ def lower_fifth(values):
 
 def main():
     if not sys.platform.startswith("linux"):
-        print("Without /proc: nothing is measured.")
+        print("skipped: /proc not found")
         sys.exit(77)
     with tempfile.TemporaryDirectory() as folder:
         seen, seconds = watch(pathlib.Path(folder) / "set")

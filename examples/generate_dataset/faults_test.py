@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Kills the generator at, or fails, each system call that touches a file: faults_test.py <generate_dataset>
+"""Kills the generator at each system call that touches a file, or makes the call fail: faults_test.py <generate_dataset>
 
-A preloaded library counts these calls in all threads, and at the N-th one kills the process (with half of a write done)
-or lets it, and all that follow, fail. Whatever happens, the folder holds no record without its files, and the same
-command then makes the bytes of an undisturbed run. INSONIFY_FAULTS: from one N to the next (40; tools/test --full: 1).
+A preloaded library counts these calls in all threads. At the N-th one it kills the process (with half of a write done),
+or makes this call and all later ones fail. In every case the folder holds no record without its files, and the same
+command then makes the bytes of an undisturbed run. INSONIFY_FAULTS: step from one N to the next (40; tools/test --full: 1).
 """
 
 import errno
@@ -40,7 +40,7 @@ SHIM = r"""
 #include <unistd.h>
 static long setting(const char* name) { const char* text = getenv(name); return text ? atol(text) : 0; }
 static long calls;
-/* Whether this call fails; writes alone, where only they do. */
+/* Whether this call is to fail. With SHIM_ERRNO, only calls that write are counted and fail; without, the process dies. */
 static int strikes(int writes) {
     const long at = setting("SHIM_AT"), reason = setting("SHIM_ERRNO");
     if (reason != 0 && !writes) return 0;
@@ -157,7 +157,7 @@ class Faults(unittest.TestCase):
             count = self.folder / "count"
             if self.run_with("killed", at=at, count=count).returncode == -9:
                 killed += 1
-            else:  # the number of calls varies with the threads: this run ended before the N-th
+            else:  # the number of calls depends on thread timing: this run ended before the N-th
                 self.assertLess(int(count.read_text()), at)
             self.check_rest("killed")
         self.assertGreater(killed, len(range(1, total + 1, STEP)) // 2)

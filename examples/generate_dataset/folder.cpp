@@ -11,7 +11,7 @@ fs::path folder_path(const std::string& out) {
     return path.has_filename() || !path.has_parent_path() ? path : path.parent_path();
 }
 
-fs::path opened(const std::string& out) {
+fs::path open_folder(const std::string& out) {
     const fs::path root = folder_path(out);
     std::error_code failed;
     fs::create_directories(root, failed);

@@ -92,7 +92,7 @@ void describe(const generator::options& o, const generator::shared_inputs& share
     std::fputs(generator::summary_of(o, work, cost, threads).c_str(), o.dry_run ? stdout : stderr);
 }
 
-/// Whether the shards of a set were joined and this one's images are there: a job that was queued again, say.
+/// Whether the shards of a set have been joined and this one's images are there, as for a job that was queued again.
 bool is_joined(const generator::options& o, const std::filesystem::path& root, const generator::json& config) {
     if (std::filesystem::exists(root / "shards.json") || !std::filesystem::exists(root / "manifest.csv")) return false;
     const generator::index_range work = generator::range_of(o.first, o.count, o.shard);
@@ -102,7 +102,7 @@ bool is_joined(const generator::options& o, const std::filesystem::path& root, c
 }
 
 int generate(const generator::options& o, const generator::shared_inputs& shared, insonify::thread_pool& pool) {
-    const std::filesystem::path root = generator::opened(o.out);
+    const std::filesystem::path root = generator::open_folder(o.out);
     const generator::folder_lock lock(root, o.shard.given ? static_cast<std::int64_t>(o.shard.number) : -1);
     if (!lock.without().empty())
         std::fprintf(stderr, "%s: no file locks here (%s); concurrent runs may make the same images twice\n",

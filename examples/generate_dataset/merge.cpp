@@ -48,7 +48,7 @@ void copy_missing(const fs::path& root, const fs::path& from, generator::staging
     files.finish();
 }
 
-/// @throws io_error that lists the shards with missing images, or such whose files have other sizes than recorded
+/// @throws io_error that lists the shards with images that are missing or whose files differ from the recorded sizes
 void check_complete(const fs::path& root, const json& config, const json& shards) {
     const auto first = shards.at("first").get<std::uint64_t>(), count = shards.at("count").get<std::uint64_t>(),
                of = shards.at("shards").get<std::uint64_t>();
@@ -85,8 +85,7 @@ int main(int argc, char** argv) try {
     bool preview = false;
     CLI::App app{
         "Joins the shards of a data set: checks that all images are there, and writes the tables. Afterwards the "
-        "folder "
-        "has\nthe same bytes as one that was made without shards.",
+        "folder has\nthe same bytes as one that was made without shards.",
         "merge_dataset"};
     app.add_option("out", out, "Folder of the joined set; that of the shards, if they all wrote to one")->required();
     app.add_flag("--preview", preview, "Write preview.html, a page to look through the set");
@@ -100,7 +99,7 @@ int main(int argc, char** argv) try {
     if (folders.empty() && !fs::exists(generator::folder_path(out))) throw io_error(out + ": does not exist");
     for (const std::string& folder : folders)
         if (!fs::exists(generator::folder_path(folder) / "config.json")) throw io_error(folder + ": holds no data set");
-    const fs::path root = generator::opened(out);
+    const fs::path root = generator::open_folder(out);
     const generator::folder_lock lock(root, -1);
     std::uint64_t images = 0;
     {

@@ -40,7 +40,7 @@ background:#000a;font-size:11px;padding:1px 4px;overflow:hidden;white-space:nowr
 <label class="in-line"><input id="masks" type="checkbox"> masks of all images</label>
 <label>Size of the images<input id="size" type="range" min="64" max="512" value="160"></label>
 <div class="note">On each image, its extent in range and an arrow that points away from the sonar. Masks: target orange, shadow
-blue; also shown below the pointer, with all parameters.</div>
+blue; also shown under the pointer, with all parameters.</div>
 <details id="charts" open><summary>Histograms of the images shown</summary><div id="histograms"></div></details></aside>
 <main id="main"><div id="grid"></div></main><script>
 "use strict";
@@ -73,7 +73,7 @@ function choose() {
   shown = rows.filter(r => (!c || r[at.cls] === c) && (!b || r[at.bottom] === b) &&
     (low === null || (r[k] !== null && r[k] >= low)) && (high === null || (r[k] !== null && r[k] <= high)));
   $("count").textContent = shown.length + " of " + rows.length + " shown" +
-    (data.step > 1 ? "; every " + data.step + "th of " + data.images + " images" : "");
+    (data.step > 1 ? "; one in " + data.step + " of " + data.images + " images" : "");
   for (const cell of cells.values()) cell.remove();
   cells.clear();
   $("main").scrollTop = 0;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""preview.html of a data set in headless Chromium: preview_test.py <generate_dataset>
+"""Opens preview.html of a data set in headless Chromium and uses its controls: preview_test.py <generate_dataset>
 
-INSONIFY_PREVIEW: how many images the set has (300; tools/test --full: 10000). Exit 77: no Chromium here.
+INSONIFY_PREVIEW: number of images of the set (300; tools/test --full: 10000). Exit code 77: Chromium not found.
 """
 
 import json
@@ -40,7 +40,7 @@ DRIVER = """
   for (const name of classes) {
     set("class", name);
     sum += count();
-    expect("a class shows itself alone", cells().every(c => c.title.includes("class: " + name)));
+    expect("a class filter shows only its class", cells().every(c => c.title.includes("class: " + name)));
   }
   expect("classes add up: " + sum, sum === COUNT && classes.length === 4);
   set("class", "");
@@ -81,7 +81,7 @@ DRIVER = """
 def main():
     chromium = chromium_program()
     if chromium is None:
-        print("Without Chromium: the preview is not opened.")
+        print("skipped: Chromium not found")
         sys.exit(77)
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         out = pathlib.Path(folder) / "a <set> & more"

@@ -21,7 +21,7 @@ namespace detail {
 inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
     namespace sb = in::seabed;
     const auto of = [](double metres) { return static_cast<float>(metres); };
-    // Most lengths of the models are 1 mm at least.
+    // The seabed models take most lengths from 1 mm on.
     const auto length = [](double metres) { return static_cast<float>((std::max)(metres, 1e-3)); };
     const auto feature = of(p.feature), fine = of(1.2 * pixel);
     // Relief is proportional to its length scale, which keeps its slopes.
@@ -74,8 +74,8 @@ inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
     return sand;
 }
 
-/// Places a piece of debris: within a wreck's length, mostly inside the hull or close to it, about as reflective. Chips
-/// are cut so that the length is about the root of their area.
+/// Places a piece of debris: within a wreck's length, mostly inside the hull or close to it, about as reflective. The
+/// square root of a chip's area is about the wreck's length.
 inline void scatter_about(const placed_object& wreck, const sonar_plan& p, in::random_sequence& dice,
                           placed_object& t) {
     const double reach = 0.35 * std::sqrt(p.chip * p.track);
@@ -90,15 +90,15 @@ inline void scatter_about(const placed_object& wreck, const sonar_plan& p, in::r
 }
 
 /// Varies the reflectivity over targets, as growth, holes and loose plates do.
-inline void grow(in::frame<in::labels>& heard, const sonar_plan& p, double pixel) {
+inline void grow(in::frame<in::labels>& recording, const sonar_plan& p, double pixel) {
     const in::bottom_tone growth{.drift = static_cast<float>(p.growth),
                                  .drift_length = static_cast<float>(p.growth_length),
                                  .octaves = 2,
                                  .seed = p.growth_seed};
-    for (int y = 0; y < heard.image.height(); ++y)
-        for (int x = 0; x < heard.image.width(); ++x)
-            if (heard.labels.instance(x, y) != 0)
-                heard.image(x, y) *=
+    for (int y = 0; y < recording.image.height(); ++y)
+        for (int x = 0; x < recording.image.width(); ++x)
+            if (recording.labels.instance(x, y) != 0)
+                recording.image(x, y) *=
                     static_cast<float>(in::from_decibels(in::level_of(growth, {x * pixel, y * pixel})));
 }
 
@@ -187,26 +187,26 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
                                     static_cast<float>(p.volume_scatter)};
     const in::sonar_equation equation{in::pulse{static_cast<float>(p.pulse)},
                                       in::horizontal_beam{static_cast<float>(p.beam)}, in::level_gain{}};
-    auto heard = in::render(scene, rig, in::record_options<>{}.with(law).with(equation), ex);
+    auto recording = in::render(scene, rig, in::record_options<>{}.with(law).with(equation), ex);
     if (!scene.targets.empty() && !p.targets.empty())
-        out.geometry = geometry_of(rig, scene.targets.front(), heard.labels.targets.front());
+        out.geometry = geometry_of(rig, scene.targets.front(), recording.labels.targets.front());
 
-    heard = in::with_tone(std::move(heard), rig, p.tone, ex);
-    grow(heard, p, pixel);
+    recording = in::with_tone(std::move(recording), rig, p.tone, ex);
+    grow(recording, p, pixel);
     in::water_column water = p.water;
     water.first_range = static_cast<float>(first);
     water.bin = static_cast<float>(rig.bin());
     if (Axis == in::across_track::ground_range) water.surface = 0;
-    heard.image = in::apply(std::move(heard.image), p.gain | water, ex);
+    recording.image = in::apply(std::move(recording.image), p.gain | water, ex);
     in::seabed_speckle speckle{.elsewhere = {.looks = p.looks},
                                .along_track = static_cast<float>(p.grain_along),
                                .across_track = static_cast<float>(p.grain_across),
                                .seed = p.noise_seed};
     for (in::speckle_law& l : speckle.bottom) l = {.looks = p.looks, .texture = static_cast<float>(p.texture)};
-    heard = in::with_speckle(std::move(heard), speckle, ex);
-    heard.image = in::apply(std::move(heard.image), p.banding, ex);
-    out.values = on_screen(std::move(heard.image), p, ex);
-    out.labels = std::move(heard.labels);
+    recording = in::with_speckle(std::move(recording), speckle, ex);
+    recording.image = in::apply(std::move(recording.image), p.banding, ex);
+    out.values = on_screen(std::move(recording.image), p, ex);
+    out.labels = std::move(recording.labels);
     if (p.turn != 0) {
         out.values = turned(out.values, p.turn);
         out.labels.instance = turned(out.labels.instance, p.turn);

@@ -27,7 +27,7 @@ inline constexpr const char* empty_class = "empty";
 /// The category of objects that are not targets.
 inline constexpr const char* clutter_class = "clutter";
 
-inline constexpr int most_targets = 3;
+inline constexpr int max_targets = 3;
 
 /// One object and its pose in the scene.
 struct placed_object {
@@ -73,10 +73,10 @@ struct sonar_plan {
 
 namespace detail {
 
-/// What objects of a kind look like where they are found, and what lies around them.
+/// How objects of a kind lie on the bottom, and what surrounds them.
 struct found_objects {
     range fill{0.1, 0.4};                ///< extent over the chip's
-    double inspected = 0.15;             ///< share that a line runs along
+    double inspected = 0.15;             ///< share recorded by a line that runs along the object
     double line_step = in::numeric::pi;  ///< angle between the headings that such lines choose from, radians
     double on_side = 0;                  ///< share that lies on its side
     double proud = 0.5, deepest = 0.3;   ///< share that isn't buried; burial of the others, at most
@@ -89,7 +89,7 @@ struct found_objects {
 };
 
 inline found_objects found_objects_of(const std::string& kind) {
-    // Hulls sink in. What they have gathered and scoured is of other sediment than the bottom, and their chips are
+    // Hulls sink in. The sediment that they have trapped and scoured differs from the bottom's, and their chips are
     // large.
     if (kind == "ship")
         return {.fill = {0.7, 1.35},
@@ -101,8 +101,8 @@ inline found_objects found_objects_of(const std::string& kind) {
                 .debris = 0.85,
                 .growth = {1.5, 5},
                 .greatest_drift = 4};
-    // Aeroplanes are light and flat: what is buried isn't found. Lines run along the fuselage or along the wings.
-    // Scour of their outline is too small to tell from wreckage.
+    // Aeroplanes are light and flat: buried ones aren't found. Lines run along the fuselage or along the wings. Scour
+    // around their outline is too small to tell from wreckage.
     if (kind == "plane")
         return {.fill = {0.7, 1.35},
                 .inspected = 0.6,
@@ -317,7 +317,7 @@ inline sonar_plan sample_image(const options& o, sampler& s, const view_of_targe
     if (target_id.empty()) s.drop("target_id");
     const int more = s.choice("targets", {{"1", 0.9}, {"2", 0.07}, {"3", 0.03}})[0] - '0';
     p.rig_yaw = s.uniform("rig_yaw_rad", 0, 2 * in::numeric::pi);
-    for (int i = 0; i < most_targets; ++i) {
+    for (int i = 0; i < max_targets; ++i) {
         const std::string prefix = "t" + std::to_string(i + 1) + "_";
         const bool used = !empty && i < more;
         const std::string kind = s.name_of(prefix + "kind", empty ? "boulder" : p.class_name);

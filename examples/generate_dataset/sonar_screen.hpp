@@ -27,7 +27,7 @@ in::image<T> turned(const in::image<T>& from, int turn) {
 inline in::image<float> enlarged(const in::image<float>& from, double factor) {
     const int n = from.width(), coarse = (std::max)(static_cast<int>(in::numeric::floor_to_int(n / factor + 0.5)), 2);
     const double step = static_cast<double>(n) / coarse;
-    // One axis after the other; turning in between makes both the same loop.
+    // Separable: one axis a pass. Each pass transposes, so that both run the same loop.
     in::image<float> now = from;
     for (int pass = 0; pass < 2; ++pass) {
         in::image<float> to(n, n);
@@ -52,9 +52,9 @@ inline in::image<float> enlarged(const in::image<float>& from, double factor) {
 }
 
 /// Gray values as the plan's display shows them.
-inline in::image<float> on_screen(in::image<float> heard, const sonar_plan& p, auto& ex) {
+inline in::image<float> on_screen(in::image<float> intensity, const sonar_plan& p, auto& ex) {
     const auto show = [&](const auto& display) {
-        in::image<float> gray = in::apply(std::move(heard), display, ex);
+        in::image<float> gray = in::apply(std::move(intensity), display, ex);
         return p.enlarged > 1 ? enlarged(gray, p.enlarged) : gray;
     };
     const auto white = static_cast<float>(p.white);

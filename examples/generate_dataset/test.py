@@ -894,7 +894,7 @@ int pthread_create(pthread_t* t, const pthread_attr_t* a, void* (*f)(void*), voi
                 self.assertEqual(process.returncode, 0, errors)
             self.assertEqual(self.whole, digest(out))
 
-    @unittest.skipIf(os.name != "posix" or os.geteuid() == 0, "needs a user whom permissions stop")
+    @unittest.skipIf(os.name != "posix" or os.geteuid() == 0, "needs a user who is not root")
     def test_a_read_only_folder_is_named(self):
         (self.folder / "a").mkdir(mode=0o500)
         self.assertIn("Permission denied", run("--out", self.folder / "a", *SMALL, expect=1))

@@ -19,15 +19,15 @@ class bottom {
     /// Adds broad undulations of level sand or mud; `rms` in metres.
     void undulate(double rms, dice& random) {
         constexpr int count = 6;
-        for (int i = 0; i < count; ++i) swells_.push_back(wave::any(random, 1.2, 5, rms * std::sqrt(2.0 / count)));
+        for (int i = 0; i < count; ++i) swells_.push_back(wave::sample(random, 1.2, 5, rms * std::sqrt(2.0 / count)));
     }
 
     /// Crests across `direction`, radians; they meander, and their height varies a little along them.
     void ripple(double wavelength, double height, double direction, dice& random) {
         height_ = height;
         number_ = 2 * std::numbers::pi / wavelength * glm::dvec2(std::cos(direction), std::sin(direction));
-        for (int i = 0; i < 4; ++i) meanders_.push_back(wave::any(random, 4 * wavelength, 12 * wavelength, 0.7));
-        fade_ = wave::any(random, 3, 8, 0.25);
+        for (int i = 0; i < 4; ++i) meanders_.push_back(wave::sample(random, 4 * wavelength, 12 * wavelength, 0.7));
+        fade_ = wave::sample(random, 3, 8, 0.25);
     }
 
     bottom_point operator()(const glm::dvec2& at) const {
@@ -59,7 +59,7 @@ class bottom {
         glm::dvec2 number{0, 0};
         double phase = 0, amplitude = 0;
 
-        static wave any(dice& random, double shortest, double longest, double amplitude) {
+        static wave sample(dice& random, double shortest, double longest, double amplitude) {
             const double k = 2 * std::numbers::pi / random.uniform(shortest, longest);
             const double turn = random.uniform(0, 2 * std::numbers::pi);
             return {k * glm::dvec2(std::cos(turn), std::sin(turn)), random.uniform(0, 2 * std::numbers::pi), amplitude};

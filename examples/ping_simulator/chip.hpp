@@ -1,4 +1,4 @@
-// From signal to picture, as in sonars: detection, levelling by range, averaging into pixels, display.
+// Converts the signal to a picture as sonars do: detection, levelling by range, averaging into pixels, display.
 #pragma once
 
 #include "echoes.hpp"

@@ -1,4 +1,4 @@
-// Random numbers from the standard library's engine, whose words are the same everywhere; its distributions aren't.
+// Random numbers from the standard library's engine, which is portable. Its distributions are not, hence these.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace pings {
 
 class dice {
   public:
-    /// @param item  which chip of the run that `seed` means
+    /// @param item  index of the chip in the run with this seed
     dice(std::uint64_t seed, std::uint64_t item) {
         std::seed_seq words{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
                             static_cast<std::uint32_t>(item), static_cast<std::uint32_t>(item >> 32)};

@@ -125,25 +125,25 @@ class receiver {
                 const double stretched = std::sqrt(1 + b.slope.x * b.slope.x + b.slope.y * b.slope.y);
                 const double facing = (altitude - p.z + p.x * b.slope.x) / (stretched * glm::length(p - beside(p)));
                 if (facing > 0)
-                    hear(p, std::sqrt(lambert(facing) * dx * dy * stretched) * scene_.random.gaussian(), true);
+                    add_echoes(p, std::sqrt(lambert(facing) * dx * dy * stretched) * scene_.random.gaussian(), true);
             }
         }
     }
 
-    /// The target: points all over its surface. Facets seen square glint.
+    /// The target: points all over its surface. Facets that face the sonar glint.
     void add_target() {
-        const body& target = scene_.lying();
+        const body& target = scene_.target_body();
         const double cell = 1e-4;
         const auto count = static_cast<std::size_t>(target.area() / cell);
         for (std::size_t i = 0; i < count; ++i) {
-            const surface_point s = target.somewhere(scene_.random);
+            const surface_point s = target.sample_surface(scene_.random);
             const std::complex<double> fluctuation = scene_.random.gaussian();
             const glm::dvec3 towards = beside(s.position) - s.position;
             const double facing = glm::dot(s.normal, towards) / glm::length(towards);
             if (!(facing > 0) || is_buried(s.position)) continue;
             const double incidence = std::acos(std::min(facing, 1.0)) / glm::radians(3.0);
             const double power = scene_.strength * (lambert(facing) + scene_.glint * std::exp(-incidence * incidence));
-            hear(s.position, std::sqrt(power * cell) * fluctuation, false);
+            add_echoes(s.position, std::sqrt(power * cell) * fluctuation, false);
         }
     }
 
@@ -160,8 +160,8 @@ class receiver {
     }
 
     /// Adds one point's echoes to all pings whose beam reaches it.
-    void hear(const glm::dvec3& p, const std::complex<double>& amplitude, bool may_be_hidden) {
-        const body& target = scene_.lying();
+    void add_echoes(const glm::dvec3& p, const std::complex<double>& amplitude, bool may_be_hidden) {
+        const body& target = scene_.target_body();
         const double across = p.x * p.x + (p.z - scene_.rig.altitude) * (p.z - scene_.rig.altitude);
         const double reach = lobes * lobe_ * std::sqrt(across);
         const double turns = 2 / scene_.rig.wavelength;  // there and back

@@ -1,7 +1,7 @@
 // ping_simulator: chips of a simulated side-scan sonar. See --help.
 //
-// A test set for classifiers trained on this library's pictures, so it uses the library only to write files: rays meet
-// solids in closed form, the bottom is a function, and a picture is the coherent sum of some 100 000 points.
+// Makes a test set for classifiers trained on this library's pictures, so it uses the library only to write files: rays
+// intersect solids in closed form, the bottom is a function, and a picture is the coherent sum of some 100 000 points.
 //
 // Based on: D. A. Abraham, A. P. Lyons. Novel Physical Interpretations of K-Distributed Reverberation. IEEE Journal of
 // Oceanic Engineering 27, 2002 (why a sum of points); P. Blondel. The Handbook of Sidescan Sonar. 2009.
@@ -38,23 +38,24 @@ struct options {
 options parse(int argc, char** argv) {
     options o;
     CLI::App app{
-        "Computes chips of cylinders, cubes and spheres on the sea floor as a side-scan sonar hears them: coherent "
-        "sums\n"
-        "over scatterers, ping by ping. Range grows to the right, the target lies a third from the left.",
+        "Computes chips of cylinders, cubes and spheres on the sea floor as a side-scan sonar records them: coherent "
+        "sums\nover scatterers, ping by ping. Range increases to the right, the target lies a third from the left.",
         "ping_simulator"};
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    app.add_option("--out", o.out, "Folder; made if need be: images/<class>/<index>.png and manifest.csv")->required();
-    app.add_option("--counts", o.counts, "How many cylinders, cubes and spheres (308,88,66)")
+    app.add_option("--out", o.out, "Folder for images/<class>/<index>.png and manifest.csv; created if missing")
+        ->required();
+    app.add_option("--counts", o.counts, "Number of cylinders, cubes and spheres (308,88,66)")
         ->delimiter(',')
         ->check(CLI::Range(0, 1'000'000));
-    app.add_option("--seabeds", o.seabeds, "They take turns: flat, ripples (flat,ripples)")
+    app.add_option("--seabeds", o.seabeds, "Of flat,ripples; taken in turn (flat,ripples)")
         ->delimiter(',')
         ->expected(1, 16)
         ->check(CLI::IsMember({"flat", "ripples"}));
-    app.add_option("--seed", o.seed, "Another seed is another set (1)")->check(CLI::Range(std::int64_t{0}, INT64_MAX));
+    app.add_option("--seed", o.seed, "Seed of all random values (1)")->check(CLI::Range(std::int64_t{0}, INT64_MAX));
     app.add_option("--chip", o.chip, "Metres a side (5)")->check(examples::number(0.5, 100));
-    app.add_option("--pixels", o.pixels, "A side (128)")->check(CLI::Range(16, 4096));
-    app.add_option("--threads", o.threads, "0: one for each hardware thread; never changes a byte")
+    app.add_option("--pixels", o.pixels, "Pixels a side (128)")->check(CLI::Range(16, 4096));
+    app.add_option("--threads", o.threads,
+                   "Number of threads, 0 for one per hardware thread (0); does not change the output")
         ->check(CLI::Range(0, 1024));
     try {
         app.parse(argc, argv);
@@ -144,7 +145,7 @@ int main(int argc, char** argv) try {
     for (std::size_t i = 0; i < kinds.size(); ++i) {
         const pings::scene s = scene_at(i);
         manifest.add(file_of(i), s.class_name, s.seabed, s.rig.altitude, s.ground_range, s.along, s.left_edge, s.size,
-                     s.length, s.lying().centre().z, glm::degrees(s.yaw), s.burial, glm::degrees(s.rig.beam),
+                     s.length, s.target_body().centre().z, glm::degrees(s.yaw), s.burial, glm::degrees(s.rig.beam),
                      s.rig.resolution, s.rig.white, s.rig.gamma);
     }
     manifest.write(o.out + "/manifest.csv");

@@ -29,12 +29,12 @@ struct scene {
     double size, length, yaw, burial;  ///< of the target; burial as a fraction of its height
     double ground_range, along;        ///< of its middle, from the track and from the chip's lower edge
     double left_edge;                  ///< slant range where the chip begins
-    double strength, glint;            ///< of the target's surface, power over the bottom's; and of facets seen square
+    double strength, glint;  ///< of the target's surface, power over the bottom's; of facets towards the sonar
     bottom ground;
     std::variant<std::monostate, body> target;
     dice random;  ///< for what is drawn later: scatterers and noise
 
-    const body& lying() const { return std::get<body>(target); }
+    const body& target_body() const { return std::get<body>(target); }
 };
 
 /// Everything about chip `index` of a run.

@@ -1,4 +1,4 @@
-// The targets as solids, intersected with lines in closed form, without meshes.
+// The targets as solids, which lines intersect in closed form, without meshes.
 #pragma once
 
 #include <limits>
@@ -14,30 +14,30 @@
 namespace pings {
 
 /// The part of a line p + t d that lies in a convex solid.
-struct stretch {
+struct interval {
     double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
 
     bool empty() const { return !(from < to); }
-    friend stretch operator&(const stretch& a, const stretch& b) {
+    friend interval operator&(const interval& a, const interval& b) {
         return {a.from > b.from ? a.from : b.from, a.to < b.to ? a.to : b.to};
     }
 };
-inline constexpr stretch no_stretch{1, 0};
+inline constexpr interval empty_interval{1, 0};
 
 /// Between two planes at a coordinate of -half and half.
-inline stretch in_slab(double p, double d, double half) {
-    if (d == 0) return p > -half && p < half ? stretch{} : no_stretch;
+inline interval in_slab(double p, double d, double half) {
+    if (d == 0) return p > -half && p < half ? interval{} : empty_interval;
     const double a = (-half - p) / d, b = (half - p) / d;
-    return a < b ? stretch{a, b} : stretch{b, a};
+    return a < b ? interval{a, b} : interval{b, a};
 }
 
 /// Within a distance of the origin, in the vectors' dimensions.
 template <class Vector>
-stretch in_ball(const Vector& p, const Vector& d, double radius) {
+interval in_ball(const Vector& p, const Vector& d, double radius) {
     const double a = glm::dot(d, d), b = glm::dot(p, d), c = glm::dot(p, p) - radius * radius;
     const double inside = b * b - a * c;
-    if (!(inside > 0)) return no_stretch;
-    if (a == 0) return c < 0 ? stretch{} : no_stretch;
+    if (!(inside > 0)) return empty_interval;
+    if (a == 0) return c < 0 ? interval{} : empty_interval;
     const double root = std::sqrt(inside);
     return {(-b - root) / a, (-b + root) / a};
 }
@@ -51,8 +51,8 @@ struct sphere {
 
     double area() const { return 4 * std::numbers::pi * radius * radius; }
     glm::dvec3 half() const { return glm::dvec3(radius); }
-    stretch inside(const glm::dvec3& p, const glm::dvec3& d) const { return in_ball(p, d, radius); }
-    surface_point somewhere(dice& random) const {
+    interval inside(const glm::dvec3& p, const glm::dvec3& d) const { return in_ball(p, d, radius); }
+    surface_point sample_surface(dice& random) const {
         const double z = random.uniform(-1, 1), r = std::sqrt(1 - z * z),
                      turn = random.uniform(0, 2 * std::numbers::pi);
         const glm::dvec3 n{r * std::cos(turn), r * std::sin(turn), z};
@@ -65,11 +65,11 @@ struct box {
 
     double area() const { return 2 * (sides.x * sides.y + sides.y * sides.z + sides.z * sides.x); }
     glm::dvec3 half() const { return 0.5 * sides; }
-    stretch inside(const glm::dvec3& p, const glm::dvec3& d) const {
+    interval inside(const glm::dvec3& p, const glm::dvec3& d) const {
         const glm::dvec3 h = half();
         return in_slab(p.x, d.x, h.x) & in_slab(p.y, d.y, h.y) & in_slab(p.z, d.z, h.z);
     }
-    surface_point somewhere(dice& random) const {
+    surface_point sample_surface(dice& random) const {
         const double yz = sides.y * sides.z, zx = sides.z * sides.x;
         const double which = random.uniform(0, 0.5 * area());
         const int axis = which < yz ? 0 : which < yz + zx ? 1 : 2;
@@ -87,10 +87,10 @@ struct cylinder {
 
     double area() const { return 2 * std::numbers::pi * radius * (length + radius); }
     glm::dvec3 half() const { return {0.5 * length, radius, radius}; }
-    stretch inside(const glm::dvec3& p, const glm::dvec3& d) const {
+    interval inside(const glm::dvec3& p, const glm::dvec3& d) const {
         return in_slab(p.x, d.x, 0.5 * length) & in_ball(glm::dvec2(p.y, p.z), glm::dvec2(d.y, d.z), radius);
     }
-    surface_point somewhere(dice& random) const {
+    surface_point sample_surface(dice& random) const {
         const double turn = random.uniform(0, 2 * std::numbers::pi), end = random.uniform() < 0.5 ? -1 : 1;
         const double c = std::cos(turn), s = std::sin(turn);
         if (random.uniform() * (length + radius) < length)
@@ -120,11 +120,11 @@ class body {
     /// Whether it hides a point from the sonar; what lies inside is hidden.
     bool hides(const glm::dvec3& point, const glm::dvec3& sonar) const {
         const glm::dvec3 p = back_ * (sonar - centre_), d = back_ * (point - sonar);
-        const stretch s = std::visit([&](const auto& shape) { return shape.inside(p, d); }, shape_);
+        const interval s = std::visit([&](const auto& shape) { return shape.inside(p, d); }, shape_);
         return !s.empty() && s.to > 0 && s.from < 1;
     }
-    surface_point somewhere(dice& random) const {
-        const surface_point s = std::visit([&](const auto& shape) { return shape.somewhere(random); }, shape_);
+    surface_point sample_surface(dice& random) const {
+        const surface_point s = std::visit([&](const auto& shape) { return shape.sample_surface(random); }, shape_);
         return {centre_ + turn_ * s.position, turn_ * s.normal};
     }
 

@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""Measures chips against closed forms, and checks that the simulator uses the library only to write files: test.py <ping_simulator>"""
+"""Compares chips with closed forms, and checks that the simulator uses the library only to write files.
+
+test.py <ping_simulator>
+"""
 
 import csv
 import functools
@@ -62,9 +65,9 @@ class Simulator(unittest.TestCase):
         self.addCleanup(self.scratch.cleanup)
         self.folder = pathlib.Path(self.scratch.name)
 
-    def test_nothing_is_the_librarys_but_the_writing_of_files(self):
+    def test_the_library_only_writes_files(self):
         here = pathlib.Path(__file__).parent
-        shared = "../common/option_values.hpp", "../common/refusal.hpp"  # of command lines; looked through as well
+        shared = "../common/option_values.hpp", "../common/refusal.hpp"  # parse command lines; checked as well
         for source in [*here.glob("*.[ch]pp"), *(here / name for name in shared)]:
             for header in re.findall(r'#include [<"](.*)[>"]', source.read_text()):
                 if header.startswith(("insonify", "..")) and header not in shared:
@@ -76,7 +79,7 @@ class Simulator(unittest.TestCase):
         self.assertEqual(digest(self.folder / "t1"), digest(self.folder / "t3"))
         self.assertEqual(len(list((self.folder / "t1").glob("images/cube/*.png"))), 2)
 
-    def test_spheres_echo_and_throw_shadows_where_closed_forms_say(self):
+    def test_echoes_and_shadows_of_spheres_match_closed_forms(self):
         run("--out", self.folder / "a", "--counts", "0,0,10", "--seabeds", "flat", "--seed", 4)
         bottoms, ends = [], 0
         for v, intensity in chips(self.folder / "a"):
@@ -85,7 +88,7 @@ class Simulator(unittest.TestCase):
             touching = math.atan2(a - z, x) - math.asin(r / distance)
             column = lambda slant: (slant - v["left_edge_m"]) / CHIP * PIXELS
             middle = PIXELS - 1 - int(v["along_m"] / CHIP * PIXELS)
-            # The beam fills in what is narrower than it; half of the sphere's width is enough to be seen.
+            # The beam fills in shadows narrower than itself; half of the sphere's width is wide enough.
             mean = lambda left, right: statistics.fmean(
                 intensity[y][i] for y in range(middle - 2, middle + 3) for i in range(round(left), round(right)))
             first, tip = column(distance - r), column(a / math.sin(touching))

@@ -66,7 +66,7 @@ void add_target(in::scene& scene, const settings& s, glm::dvec2 at) {
     }
 }
 
-/// Gray values of a linear picture, by the page's display settings.
+/// Applies the colour map that the page selects.
 in::image<in::rgb8> shown(const in::image<float>& gray, int look) {
     return look == 0 ? gray | in::colormap::copper : look == 1 ? gray | in::colormap::gray : gray | in::colormap::sea;
 }
@@ -92,7 +92,7 @@ std::vector<std::uint8_t> pixels;
 
 extern "C" {
 
-/// @param list  of `settings`' values, in their order
+/// @param list  the members of `settings`, in their order
 /// @return size x size pixels, RGBA
 const std::uint8_t* draw(const double* list) {
     const auto whole = [&](int i) { return static_cast<int>(list[i]); };
@@ -121,10 +121,10 @@ const std::uint8_t* draw(const double* list) {
             rig.range = width;
             rig.bins = rig.pings = s.size;
             rig.ping_spacing = width / static_cast<float>(s.size);
-            auto heard = in::render(scene, rig);
-            if (s.speckle > 0) heard = in::with_speckle(std::move(heard), {.seed = seed});
-            gray = heard.image | in::display{};
-            labels = std::move(heard.labels);
+            auto recording = in::render(scene, rig);
+            if (s.speckle > 0) recording = in::with_speckle(std::move(recording), {.seed = seed});
+            gray = recording.image | in::display{};
+            labels = std::move(recording.labels);
         };
         if (s.mode == slant_range)
             hear(in::side_scan{});

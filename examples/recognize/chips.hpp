@@ -14,10 +14,10 @@
 
 namespace recognition {
 
-/// The features of a picture: to recognise objects by, and to tell generated bottoms from real ones by.
 struct chip {
     std::string kind;
-    cv::Mat shape, texture;  ///< one row each, CV_32F
+    cv::Mat shape;    ///< features to recognise objects, one row, CV_32F
+    cv::Mat texture;  ///< features to separate generated bottoms from real ones, one row, CV_32F
 };
 
 namespace detail {
@@ -90,7 +90,7 @@ inline void add_spectrum(const cv::Mat& chip, std::vector<float>& row) {
     for (std::size_t i = 0; i < 6; ++i) row.push_back(static_cast<float>(std::log(energy[i] / count[i] + 1e-9)));
 }
 
-/// Of pairs of pixels so far apart, in 32 gray levels: contrast, homogeneity, energy and correlation.
+/// Statistics of pairs of pixels at an offset, in 32 gray levels: contrast, homogeneity, energy and correlation.
 inline void add_cooccurrence(const cv::Mat& chip, int across, int down, std::vector<float>& row) {
     std::array<std::array<double, 32>, 32> pairs{};
     double total = 0;
@@ -123,7 +123,7 @@ inline cv::Mat texture_of(const cv::Mat& chip) {
 
 }  // namespace detail
 
-/// The pictures in a folder, at any depth, by the names of their paths.
+/// The pictures in a folder, at any depth, sorted by path.
 inline std::vector<std::string> pictures_in(const std::string& folder) {
     std::set<std::string> paths;
     if (std::filesystem::is_directory(folder))

@@ -10,15 +10,14 @@
 
 namespace recognition {
 
-/// A row of features per picture. Each is made of its picture alone.
+/// Features by picture, a row each, computed from that picture alone.
 struct features {
-    cv::Mat rows,
-        mirrored;  ///< of the pictures, and of their mirror images along the track, which are scenes as plausible
+    cv::Mat rows;      ///< of the pictures
+    cv::Mat mirrored;  ///< of their mirror images along the track, which are as plausible
     std::vector<std::size_t> kinds;
 };
 
-/// Position of the target in a picture of 128 x 128: of the possible ones, where it is brightest over the pixels behind
-/// it.
+/// Position of the target in a picture of 128 x 128: where the contrast to the pixels behind it is largest.
 inline cv::Point target_in(const cv::Mat& picture) {
     cv::Mat sums;
     cv::integral(picture, sums, CV_64F);
@@ -29,17 +28,17 @@ inline cv::Point target_in(const cv::Mat& picture) {
                ((right - left) * (bottom - top));
     };
     cv::Point best(43, 64);
-    double most = -1e30;
+    double largest = -1e30;
     for (int y = 46; y < 82; ++y)
         for (int x = 26; x < 60; ++x) {
             const double contrast = mean(x - 5, x + 5, y) - mean(x + 7, x + 27, y);
-            if (contrast > most) most = contrast, best = {x, y};
+            if (contrast > largest) largest = contrast, best = {x, y};
         }
     return best;
 }
 
-/// Of the 80 x 64 pixels around the target and its shadow, smoothed against speckle: cells of 8 pixels, blocks of 2 x 2
-/// cells, 9 directions.
+/// Histograms of gradients in the 80 x 64 pixels around the target and its shadow, smoothed to reduce speckle: cells of
+/// 8 pixels, blocks of 2 x 2 cells, 9 directions.
 inline std::vector<float> gradients_of(const cv::Mat& picture) {
     static const cv::HOGDescriptor hog({80, 64}, {16, 16}, {8, 8}, {8, 8}, 9);
     cv::Mat scaled, smooth;
@@ -65,7 +64,7 @@ inline features features_of(const std::vector<example>& set) {
     return f;
 }
 
-/// The rows of `f` with these numbers.
+/// The rows of `f` at these indices.
 inline features subset(const features& f, const std::vector<std::size_t>& numbers) {
     features s;
     for (const std::size_t i : numbers) {
@@ -86,8 +85,8 @@ class classifier {
         machine_->setKernel(SVM::LINEAR);
         machine_->setTermCriteria({cv::TermCriteria::MAX_ITER + cv::TermCriteria::EPS, 20000, 1e-4});
         const cv::Mat kinds(std::vector<int>(f.kinds.begin(), f.kinds.end()), true);
-        const auto set_of = [](const cv::Mat& rows, const cv::Mat& answers) {
-            return cv::ml::TrainData::create(rows, cv::ml::ROW_SAMPLE, answers);
+        const auto set_of = [](const cv::Mat& rows, const cv::Mat& labels) {
+            return cv::ml::TrainData::create(rows, cv::ml::ROW_SAMPLE, labels);
         };
         const cv::ml::ParamGrid fixed(0, 0, 0), penalties(1e-3, 30, 10);
         machine_->trainAuto(set_of(f.rows, kinds), 5, penalties, fixed, fixed, fixed, fixed, fixed, true);
@@ -98,10 +97,10 @@ class classifier {
     }
 
     std::vector<std::size_t> operator()(const features& f) const {
-        cv::Mat answers;
-        machine_->predict(f.rows, answers);
+        cv::Mat predictions;
+        machine_->predict(f.rows, predictions);
         std::vector<std::size_t> kinds;
-        for (int i = 0; i < answers.rows; ++i) kinds.push_back(static_cast<std::size_t>(answers.at<float>(i)));
+        for (int i = 0; i < predictions.rows; ++i) kinds.push_back(static_cast<std::size_t>(predictions.at<float>(i)));
         return kinds;
     }
 

@@ -20,8 +20,8 @@ struct sample {
     }
 };
 
-/// Answers of a classifier: a class each, and for two classes how sure it is of class 1.
-struct answers {
+/// Predictions of a classifier: a class each, and for two classes the score of class 1.
+struct predictions {
     std::vector<int> classes;
     std::vector<double> scores;
 };
@@ -34,9 +34,9 @@ inline cv::Ptr<cv::ml::TrainData> train_data(const cv::Mat& rows, const std::vec
 
 }  // namespace detail
 
-/// Features are scaled to a mean of 0 and a deviation of 1 of the training rows. Dual coordinate descent is not in
-/// OpenCV; its solver of SVMs takes the same penalty.
-inline answers learn_by_vectors(const sample& train, const cv::Mat& test) {
+/// Trains a linear support vector machine and classifies the test rows. Features are scaled to mean 0 and standard
+/// deviation 1 over the training rows.
+inline predictions svm_predictions(const sample& train, const cv::Mat& test) {
     cv::Mat mean, scale;
     for (int column = 0; column < train.rows.cols; ++column) {
         cv::Scalar m, d;
@@ -59,7 +59,7 @@ inline answers learn_by_vectors(const sample& train, const cv::Mat& test) {
     cv::Mat classes, raw;
     machine->predict(rows, classes);
     machine->predict(rows, raw, cv::ml::StatModel::RAW_OUTPUT);
-    answers out;
+    predictions out;
     // The raw output is positive for the first class.
     for (int i = 0; i < rows.rows; ++i) {
         out.classes.push_back(static_cast<int>(classes.at<float>(i)));
@@ -68,7 +68,8 @@ inline answers learn_by_vectors(const sample& train, const cv::Mat& test) {
     return out;
 }
 
-inline answers learn_by_trees(const sample& train, const cv::Mat& test, std::uint64_t seed) {
+/// Trains a forest of random trees and classifies the test rows.
+inline predictions forest_predictions(const sample& train, const cv::Mat& test, std::uint64_t seed) {
     cv::setRNGSeed(static_cast<int>(seed));
     const auto forest = cv::ml::RTrees::create();
     forest->setMaxDepth(20);
@@ -77,7 +78,7 @@ inline answers learn_by_trees(const sample& train, const cv::Mat& test, std::uin
     forest->train(detail::train_data(train.rows, train.classes));
     cv::Mat votes;
     forest->getVotes(test, votes, 0);  // the first row: classes
-    answers out;
+    predictions out;
     for (int i = 1; i < votes.rows; ++i) {
         int most = 0, all = 0;
         for (int k = 0; k < votes.cols; ++k) {
@@ -120,13 +121,13 @@ inline double area_under(const std::vector<roc_point>& curve) {
 }
 
 /// The mean of the classes' recalls.
-inline double balanced_accuracy(const std::vector<int>& truth, const std::vector<int>& found, int classes) {
+inline double balanced_accuracy(const std::vector<int>& truth, const std::vector<int>& predicted, int classes) {
     double sum = 0;
     for (int k = 0; k < classes; ++k) {
-        double shown = 0, right = 0;
+        double actual = 0, correct = 0;
         for (std::size_t i = 0; i < truth.size(); ++i)
-            if (truth[i] == k) shown += 1, right += found[i] == k ? 1 : 0;
-        sum += shown > 0 ? right / shown : 0;
+            if (truth[i] == k) actual += 1, correct += predicted[i] == k ? 1 : 0;
+        sum += actual > 0 ? correct / actual : 0;
     }
     return sum / classes;
 }

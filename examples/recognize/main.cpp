@@ -24,28 +24,30 @@ struct options {
 options parse(int argc, char** argv) {
     options o;
     CLI::App app{
-        "Trains histograms of oriented gradients and a support vector machine on pictures that the library draws, and\n"
-        "tries them on pictures of the same recipe and on those of an independent simulator. See tools/recognize.",
+        "Trains a support vector machine on histograms of oriented gradients of pictures that the library draws, and\n"
+        "tests it on pictures of the same recipe and on those of an independent simulator. See tools/recognize.",
         "recognize"};
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    app.add_option("--out", o.out, "Folder for report.md and confusion.svg; made if need be")->required();
+    app.add_option("--out", o.out, "Folder for report.md and confusion.svg; created if missing")->required();
     app.add_option("--test", o.test, "The simulator's test set: images/<class>/*.png")->required();
-    app.add_option("--own", o.own, "Another set of the simulator, to train the ceiling on");
-    app.add_option("--references", o.references, "A third one, to match histograms with where a recipe does");
+    app.add_option("--own", o.own, "Another set of the simulator, which trains the upper bound `ceiling`");
+    app.add_option("--references", o.references,
+                   "A third set of the simulator, whose histograms recipe overhead matches");
     app.add_option("--recipes", o.recipes, "Of overhead, ground_range, slant_range; none beside --try (all)")
         ->delimiter(',')
         ->check(CLI::IsMember({"none", "overhead", "ground_range", "slant_range"}));
     app.add_option("--try", o.tried, "Another recipe: options of generate_dataset, as one word; repeat for more")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--sizes", o.sizes, "How many training pictures, 10 at least (80,390)")
+    app.add_option("--sizes", o.sizes, "Numbers of training pictures, at least 10 (80,390)")
         ->delimiter(',')
         ->check(examples::whole_number(10, 1'000'000));
-    app.add_option("--seeds", o.seeds, "Trainings of each kind (10)")->check(CLI::Range(1, 1000));
+    app.add_option("--seeds", o.seeds, "Number of trainings of each kind (10)")->check(CLI::Range(1, 1000));
     app.add_option("--synthetic-test", o.synthetic,
-                   "Pictures of each class that test on a recipe's own kind; a third of those published (206,191,193)")
+                   "Test pictures of each class by a recipe itself; a third of the published numbers (206,191,193)")
         ->delimiter(',')
         ->expected(static_cast<int>(classes.size()));
-    app.add_option("--threads", o.threads, "0: one for each hardware thread; never changes a figure");
+    app.add_option("--threads", o.threads,
+                   "Number of threads, 0 for one per hardware thread (0); does not change the figures");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -62,7 +64,7 @@ class_counts counts_of(std::size_t images) {
     return c;
 }
 
-/// The given number of rows of each class, from a first one on, cyclically.
+/// A given number of rows of each class, beginning at `from`, cyclically.
 features some_of(const features& f, const class_counts& counts, const class_counts& from = {}) {
     std::array<std::vector<std::size_t>, 3> of_class;
     for (std::size_t i = 0; i < f.kinds.size(); ++i) of_class[f.kinds[i]].push_back(i);
@@ -81,24 +83,24 @@ class_counts counted(const features& f) {
     return c;
 }
 
-/// The experiment: everything is trained at every size with every seed, and tried on the simulator's test set.
+/// The experiment: trains on each set at each size with each seed, and tests on the simulator's test set.
 class experiment {
   public:
     explicit experiment(const options& o)
         : options_(o),
           pool_(o.threads),
-          most_(*std::max_element(o.sizes.begin(), o.sizes.end())),
+          max_size_(*std::max_element(o.sizes.begin(), o.sizes.end())),
           test_(features_of(read_set(o.test))) {}
 
     /// Trains on a recipe's pictures. A set of another seed tests it on pictures of the same recipe.
     void learn_from(const recipe& r) {
-        const artist hand(
+        const set_renderer renderer(
             r, options_.references.empty() ? std::vector<std::string>{} : class_folders(options_.references), pool_);
         const class_counts tested{options_.synthetic[0], options_.synthetic[1], options_.synthetic[2]};
-        const features own = features_of(hand.draw_set(tested, options_.seeds + 1));
+        const features own = features_of(renderer.draw_set(tested, options_.seeds + 1));
         std::vector<features> sets;
         for (std::size_t seed = 1; seed <= options_.seeds; ++seed)
-            sets.push_back(features_of(hand.draw_set(counts_of(most_), seed)));
+            sets.push_back(features_of(renderer.draw_set(counts_of(max_size_), seed)));
         learn(
             r.name, r.description,
             [&](std::size_t seed, std::size_t images) { return some_of(sets[seed], counts_of(images)); }, &own);
@@ -140,7 +142,7 @@ class experiment {
 
     options options_;
     in::thread_pool pool_;
-    std::size_t most_;
+    std::size_t max_size_;
     features test_;
     std::vector<outcome> outcomes_;
 };

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""What sets teach classifiers that their recipe was not chosen by, beside 80 real images.
+"""Trains classifiers that played no part in choosing the recipe, on generated sets and, to compare, on 80 real images.
 
     examples/recognize/other_classifiers.py REAL SET...
 
 REAL has the folders plane/, ship/ and seafloor/ of real images, each SET is a folder of generate_dataset's recipe sonar.
 Prints area under the ROC curve / balanced accuracy of object or bare bottom, and the balanced accuracy of plane, ship or
-bottom. The 80 real images, half of them bare, are drawn five times, and the others test; sets are tried on all. Needs
-numpy, scipy, scikit-image and scikit-learn.
+bottom. The 80 real images, half of them bare, are drawn five times and tested on the rest; sets are tested on all real
+images. Needs numpy, scipy, scikit-image and scikit-learn.
 """
 
 import argparse
@@ -72,12 +72,12 @@ def scaled(classifier):
 
 
 CLASSIFIERS = {
-    "gradients, linear vectors": (gradients, scaled(LinearSVC(C=3e-4, max_iter=5000))),
-    "gradients, radial vectors": (gradients, scaled(SVC(C=3))),
+    "gradients, linear SVM": (gradients, scaled(LinearSVC(C=3e-4, max_iter=5000))),
+    "gradients, RBF SVM": (gradients, scaled(SVC(C=3))),
     "smoothed gradients, boosted trees": (smooth_gradients, HistGradientBoostingClassifier(random_state=0)),
     "binary patterns, extra trees": (binary_patterns, ExtraTreesClassifier(300, random_state=0, class_weight="balanced")),
-    "binary patterns, logistic": (binary_patterns, scaled(LogisticRegression(C=0.1, max_iter=2000))),
-    "spectrum, radial vectors": (spectrum, scaled(SVC(C=1))),
+    "binary patterns, logistic regression": (binary_patterns, scaled(LogisticRegression(C=0.1, max_iter=2000))),
+    "spectrum, RBF SVM": (spectrum, scaled(SVC(C=1))),
 }
 CLASSES = ("plane", "ship", "seafloor")
 
@@ -91,8 +91,8 @@ def load(folder, names):
 def object_or_bare(classifier, rows, classes, test_rows, test_classes):
     """Area under the ROC curve, balanced accuracy."""
     classifier.fit(rows, classes < 2)
-    is_machine = hasattr(classifier, "decision_function")
-    scores = classifier.decision_function(test_rows) if is_machine else classifier.predict_proba(test_rows)[:, 1] - 0.5
+    has_margin = hasattr(classifier, "decision_function")
+    scores = classifier.decision_function(test_rows) if has_margin else classifier.predict_proba(test_rows)[:, 1] - 0.5
     return roc_auc_score(test_classes < 2, scores), balanced_accuracy_score(test_classes < 2, scores > 0)
 
 

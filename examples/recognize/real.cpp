@@ -1,5 +1,4 @@
-// recognize_real: trains with a generated set, tests on real side-scan images. See --help, and tools/recognize --real
-// DIR.
+// recognize_real: trains on a generated set, tests on real side-scan images. See --help and tools/recognize --real DIR.
 #include "../common/refusal.hpp"
 #include "real_report.hpp"
 #include <CLI/CLI.hpp>
@@ -18,17 +17,19 @@ struct options {
 options parse(int argc, char** argv) {
     options o;
     CLI::App app{
-        "Object or bare bottom, and plane, ship or bare bottom, on real images: what some real images teach, with a\n"
-        "generated set and without, by a linear support vector machine and a forest of random trees.",
+        "Trains a linear support vector machine and a forest of random trees on real images, with and without a\n"
+        "generated set, and tests them on other real images: object or bare bottom, and plane, ship or bare bottom.",
         "recognize_real"};
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    app.add_option("--out", o.out, "Folder for real.md, roc.svg, curves.svg and three.svg; made if need be")
+    app.add_option("--out", o.out, "Folder for real.md, roc.svg, curves.svg and three.svg; created if missing")
         ->required();
     app.add_option("--real", o.real, "Folder with plane/, ship/ and seafloor/")->required();
     app.add_option("--generated", o.generated, "Set of generate_dataset with the classes plane, ship and empty");
-    app.add_option("--counts", o.counts, "How many real images teach, half of them bare (0,20,80,320)")->delimiter(',');
-    app.add_option("--seeds", o.seeds, "Divisions of the real images (10)")->check(CLI::Range(1, 1000));
-    app.add_option("--threads", o.threads, "0: one for each hardware thread; never changes a figure");
+    app.add_option("--counts", o.counts, "Numbers of real training images, half of them bare (0,20,80,320)")
+        ->delimiter(',');
+    app.add_option("--seeds", o.seeds, "Number of random splits of the real images (10)")->check(CLI::Range(1, 1000));
+    app.add_option("--threads", o.threads,
+                   "Number of threads, 0 for one per hardware thread (0); does not change the figures");
     try {
         app.parse(argc, argv);
         for (const std::size_t count : o.counts)
@@ -53,34 +54,34 @@ int main(int argc, char** argv) try {
     const collection real = read(o.real, real_classes);
     const collection made =
         o.generated.empty() ? collection{} : read(o.generated + "/images", {"plane", "ship", "empty"});
-    const std::size_t most = *std::max_element(o.counts.begin(), o.counts.end());
+    const std::size_t max_real = *std::max_element(o.counts.begin(), o.counts.end());
     const std::size_t bare = real.of_class[2].size();
-    if (most / 2 >= real.objects() || most / 2 >= bare)
-        throw insonify::io_error("--counts " + std::to_string(most) + ": " + o.real + " has " +
+    if (max_real / 2 >= real.objects() || max_real / 2 >= bare)
+        throw insonify::io_error("--counts " + std::to_string(max_real) + ": " + o.real + " has " +
                                  std::to_string(real.objects()) + " objects and " + std::to_string(bare) +
-                                 " bare bottoms, of which some are left to test on");
+                                 " bare bottoms, of which some must remain for testing");
 
     std::vector<std::pair<std::size_t, bool>> wanted;
     for (const std::size_t count : o.counts)
         for (const bool generated : {false, true})
             if (count > 0 ? !generated || !o.generated.empty() : generated && !o.generated.empty())
                 wanted.emplace_back(count, generated);
-    if (wanted.empty()) throw insonify::io_error("--counts 0: without --generated, nothing is left to train with");
-    std::vector<lesson> lessons(wanted.size());
+    if (wanted.empty()) throw insonify::io_error("--counts 0: needs --generated, since no real image trains");
+    std::vector<trial_result> results(wanted.size());
     insonify::thread_pool pool(o.threads);
     pool.bulk(wanted.size(), [&](std::size_t i) {
-        lessons[i] = learn(real, made, wanted[i].first, wanted[i].second, most, o.seeds);
-        std::printf("%s: %.3f\n", lessons[i].name().c_str(), spread(lessons[i].area[lessons[i].better()]).mean);
+        results[i] = run_trial(real, made, wanted[i].first, wanted[i].second, max_real, o.seeds);
+        std::printf("%s: %.3f\n", results[i].name().c_str(), spread(results[i].area[results[i].better()]).mean);
         std::fflush(stdout);
     });
-    const double apart = o.generated.empty() ? -1 : told_apart(real.of_class[2], made.of_class[2]);
+    const double apart = o.generated.empty() ? -1 : separability(real.of_class[2], made.of_class[2]);
 
-    const std::string report = real_markdown(lessons, o.seeds, real.objects() + bare - most, apart);
+    const std::string report = real_markdown(results, o.seeds, real.objects() + bare - max_real, apart);
     std::filesystem::create_directories(o.out);
     insonify::write_file(o.out + "/real.md", report);
-    insonify::write_file(o.out + "/roc.svg", roc_svg(lessons));
-    insonify::write_file(o.out + "/curves.svg", curves_svg(lessons));
-    insonify::write_file(o.out + "/three.svg", confusion_svg(lessons));
+    insonify::write_file(o.out + "/roc.svg", roc_svg(results));
+    insonify::write_file(o.out + "/curves.svg", curves_svg(results));
+    insonify::write_file(o.out + "/three.svg", confusion_svg(results));
     std::printf("\n%s", report.c_str());
     return 0;
 } catch (const std::exception& error) {

@@ -12,26 +12,26 @@ inline std::string fixed(double value) {
     return svg::number(value, 3);
 }
 
-/// @param apart  the area of `told_apart`, below 0 if there is none
-inline std::string real_markdown(const std::vector<lesson>& lessons, std::size_t seeds, std::size_t tested,
+/// @param apart  the result of `separability`, below 0 without a generated set
+inline std::string real_markdown(const std::vector<trial_result>& results, std::size_t seeds, std::size_t tested,
                                  double apart) {
     std::string out =
         "Area under the ROC curve and balanced accuracy, object or bare bottom, on " + std::to_string(tested) +
-        " real images that trained nothing: means of " + std::to_string(seeds) +
+        " real images outside the training set: means of " + std::to_string(seeds) +
         " seeds (lowest to highest), of the classifier with the larger area. The last column: plane, ship or "
-        "bottom.\n\n| taught by | area under ROC | balanced accuracy | classifier | three classes |\n"
+        "bottom.\n\n| trained on | area under ROC | balanced accuracy | classifier | three classes |\n"
         "|---|---|---|---|---:|\n";
-    for (const lesson& l : lessons) {
+    for (const trial_result& l : results) {
         const std::size_t c = l.better();
         const auto cell = [](const std::vector<double>& values) {
             const spread s(values);
             return fixed(s.mean) + " (" + fixed(s.lowest) + " to " + fixed(s.highest) + ")";
         };
         out += "| " + l.name() + " | " + cell(l.area[c]) + " | " + cell(l.balanced[c]) + " | " +
-               (c == 0 ? "vectors" : "forest") + " | " +
+               (c == 0 ? "SVM" : "forest") + " | " +
                fixed((std::max)(spread(l.three[0]).mean, spread(l.three[1]).mean)) + " |\n";
     }
-    if (apart >= 0) out += "\nGenerated and real bare bottoms are told apart with an area of " + fixed(apart) + ".\n";
+    if (apart >= 0) out += "\nA forest tells generated from real bare bottoms with an area of " + fixed(apart) + ".\n";
     return out;
 }
 
@@ -103,14 +103,14 @@ inline std::string entry(double x, double y, const std::string& color, bool dash
 
 }  // namespace detail
 
-/// Mean ROC curves, up to half of the bare bottoms taken for objects.
-inline std::string roc_svg(const std::vector<lesson>& lessons) {
+/// Mean ROC curves, up to a rate of false alarms of 0.5.
+inline std::string roc_svg(const std::vector<trial_result>& results) {
     detail::axes a{.x_high = 0.5, .y_low = 0.5};
     std::string body = a.grid({{0, "0"}, {0.1, "0.1"}, {0.2, "0.2"}, {0.3, "0.3"}, {0.4, "0.4"}, {0.5, "0.5"}},
                               {0.5, 0.6, 0.7, 0.8, 0.9, 1}, 1) +
                        a.titles("false alarms, share of bare bottoms", "detections, share of objects");
     double y = 50;
-    for (const lesson& l : lessons) {
+    for (const trial_result& l : results) {
         const std::size_t c = l.better();
         std::vector<std::pair<double, double>> shown;
         for (const auto& [x, detections] : detail::mean_curve(l.curves[c]))
@@ -125,23 +125,23 @@ inline std::string roc_svg(const std::vector<lesson>& lessons) {
 }
 
 /// Areas over numbers of real images, with and without the generated set.
-inline std::string curves_svg(const std::vector<lesson>& lessons) {
+inline std::string curves_svg(const std::vector<trial_result>& results) {
     double lowest = 1;
-    for (const lesson& l : lessons) lowest = (std::min)(lowest, spread(l.area[l.better()]).lowest);
+    for (const trial_result& l : results) lowest = (std::min)(lowest, spread(l.area[l.better()]).lowest);
     lowest = (std::min)(std::floor(lowest * 50) / 50, 0.98);
-    // Numbers of images on a logarithmic scale, none of them at its left end.
+    // Numbers of images on a logarithmic scale, with 0 at its left end.
     const auto place = [](std::size_t real) { return real == 0 ? 0.0 : std::log2(static_cast<double>(real) / 5); };
     std::vector<std::pair<double, std::string>> x_ticks;
     std::vector<double> y_ticks;
-    for (const lesson& l : lessons)
+    for (const trial_result& l : results)
         if (l.generated) x_ticks.emplace_back(place(l.real), std::to_string(l.real));
     for (int i = 0; i <= 5; ++i) y_ticks.push_back(lowest + (1 - lowest) * i / 5);
-    detail::axes a{.x_low = -0.3, .x_high = place(lessons.back().real) + 0.3, .y_low = lowest};
-    std::string body = a.grid(x_ticks, y_ticks, 3) + a.titles("real images that teach", "area under the ROC curve");
+    detail::axes a{.x_low = -0.3, .x_high = place(results.back().real) + 0.3, .y_low = lowest};
+    std::string body = a.grid(x_ticks, y_ticks, 3) + a.titles("real training images", "area under the ROC curve");
     for (const bool generated : {true, false}) {
         const std::string color = generated ? "#b5651d" : "#1f77b4";
         std::vector<std::pair<double, double>> means;
-        for (const lesson& l : lessons) {
+        for (const trial_result& l : results) {
             if (l.generated != generated) continue;
             const spread s(l.area[l.better()]);
             means.emplace_back(place(l.real), s.mean);
@@ -149,23 +149,23 @@ inline std::string curves_svg(const std::vector<lesson>& lessons) {
                     svg::circle(a.x(place(l.real)), a.y(s.mean), 3.5, color);
         }
         body += a.curve(means, color, !generated) + detail::entry(400, generated ? 50 : 72, color, !generated,
-                                                                  generated ? "and a generated set" : "real alone");
+                                                                  generated ? "real and generated" : "real only");
     }
     body += svg::text(400, 98, "bars: lowest to highest seed");
     return svg::page(640, 420,
                      svg::text(60, 18, "Learning curves, object or bare bottom", " font-weight='bold'") + body);
 }
 
-/// Answers in per cent of the pictures of each class, over all seeds.
-inline std::string confusion_svg(const std::vector<lesson>& lessons) {
+/// Predictions in per cent of the pictures of each true class, over all seeds.
+inline std::string confusion_svg(const std::vector<trial_result>& results) {
     constexpr double cell = 52, left = 86, top = 70, width = left + 3 * cell + 24;
     std::string body;
-    for (std::size_t n = 0; n < lessons.size(); ++n) {
-        const lesson& l = lessons[n];
+    for (std::size_t n = 0; n < results.size(); ++n) {
+        const trial_result& l = results[n];
         const std::size_t c = spread(l.three[0]).mean >= spread(l.three[1]).mean ? 0 : 1;
         const double x0 = static_cast<double>(n % 4) * width, y0 = static_cast<double>(n / 4) * (top + 3 * cell + 24);
         body += svg::text(x0 + left, y0 + 20, l.name() + ": " + fixed(spread(l.three[c]).mean), " font-weight='bold'") +
-                svg::text(x0 + left, y0 + 40, "answered, %") + svg::text(x0 + 10, y0 + top - 10, "shown");
+                svg::text(x0 + left, y0 + 40, "predicted, %") + svg::text(x0 + 10, y0 + top - 10, "true");
         for (std::size_t k = 0; k < 3; ++k) {
             const double middle = (static_cast<double>(k) + 0.5) * cell;
             body +=
@@ -185,7 +185,7 @@ inline std::string confusion_svg(const std::vector<lesson>& lessons) {
             }
         }
     }
-    const auto rows = (lessons.size() + 3) / 4;
+    const auto rows = (results.size() + 3) / 4;
     return svg::page(static_cast<int>(4 * width), static_cast<int>(static_cast<double>(rows) * (top + 3 * cell + 24)),
                      body);
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests the trial on real images with drawn pictures: real_test.py <recognize_real>"""
+"""Tests recognize_real on synthetic pictures in place of real images: real_test.py <recognize_real>"""
 
 import functools
 import pathlib
@@ -74,11 +74,11 @@ class Real(unittest.TestCase):
         one = self.report("c", "--threads", 1)
         self.assertEqual(one, self.report("d", "--threads", 3))
         self.assertEqual(list(self.rows(one)), ["4 real", "12 real"])
-        self.assertNotIn("told apart", one)
+        self.assertNotIn("tells generated from real", one)
 
     def test_invalid_options_are_refused_with_a_reason(self):
         self.assertIn("holds no picture", run("--out", self.folder / "e", "--real", self.folder, expect=1))
-        self.assertIn("are left to test on", run("--out", self.folder / "e", "--real", self.folder / "real", "--counts", 28, expect=1))
+        self.assertIn("must remain for testing", run("--out", self.folder / "e", "--real", self.folder / "real", "--counts", 28, expect=1))
         self.assertIn("is odd", run("--out", self.folder / "e", "--real", self.folder / "real", "--counts", 3, expect=2))
 
 

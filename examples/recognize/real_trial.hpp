@@ -18,30 +18,30 @@ struct collection {
 };
 inline const std::array<std::string, 3> real_classes{"plane", "ship", "seafloor"};
 
-/// One point of a learning curve, a run for each seed.
-struct lesson {
+/// One point of a learning curve, with a run for each seed.
+struct trial_result {
     std::size_t real;
     bool generated;
-    std::vector<double> area[2], balanced[2];  ///< by support vectors, by trees
+    std::vector<double> area[2], balanced[2];  ///< of the support vector machine, of the forest
     std::vector<std::vector<roc_point>> curves[2];
     std::vector<double> three[2];  ///< balanced accuracy of plane, ship or bottom
     std::array<std::array<double, 3>, 3> confusion[2]{};
 
     std::string name() const { return std::to_string(real) + " real" + (generated ? " and generated" : ""); }
-    /// The classifier with the larger mean area counts.
+    /// Index of the classifier with the larger mean area.
     std::size_t better() const { return spread(area[0]).mean >= spread(area[1]).mean ? 0 : 1; }
 };
 
-/// The real chips for training and for testing, for one seed: as many objects as bare bottoms to train with, the rest
-/// to test.
+/// Splits the real chips into training and test chips by a seed: as many objects as bare bottoms train, the rest
+/// tests.
 struct division {
     struct item {
         std::size_t of_class, number;
     };
-    std::vector<item> objects, bare;  ///< to train with, in the order in which they are taken
+    std::vector<item> objects, bare;  ///< training chips, in the order of use
     std::vector<item> test;
 
-    division(const collection& real, std::size_t most, std::uint64_t seed) {
+    division(const collection& real, std::size_t max_real, std::uint64_t seed) {
         insonify::random_sequence random(seed, 0x7265616Cu);
         std::vector<item> all_objects, all_bare;
         for (std::size_t k = 0; k < 3; ++k)
@@ -51,22 +51,22 @@ struct division {
             for (std::size_t i = items->size(); i > 1; --i)
                 std::swap((*items)[i - 1], (*items)[random.below(static_cast<std::uint32_t>(i))]);
             std::vector<item>& train = items == &all_objects ? objects : bare;
-            train.assign(items->begin(), items->begin() + static_cast<std::ptrdiff_t>(most / 2));
-            test.insert(test.end(), items->begin() + static_cast<std::ptrdiff_t>(most / 2), items->end());
+            train.assign(items->begin(), items->begin() + static_cast<std::ptrdiff_t>(max_real / 2));
+            test.insert(test.end(), items->begin() + static_cast<std::ptrdiff_t>(max_real / 2), items->end());
         }
     }
 };
 
-/// Real chips are repeated up to the number of generated ones, ten times at most.
+/// Real chips are repeated up to the number of generated ones, ten times at max_real.
 inline int repeats_of(std::size_t real, std::size_t generated) {
     return real == 0 || generated == 0 ? 1 : static_cast<int>(std::clamp<std::size_t>(generated / real, 1, 10));
 }
 
 /// Trains and tests one point of the curve with one seed.
 /// @param three  classes are plane, ship and bottom instead of object and bottom
-inline std::array<answers, 2> taught(const collection& real, const collection& made, const division& d,
-                                     std::size_t count, bool generated, bool three, std::uint64_t seed,
-                                     std::vector<int>& truth) {
+inline std::array<predictions, 2> train_and_test(const collection& real, const collection& made, const division& d,
+                                                 std::size_t count, bool generated, bool three, std::uint64_t seed,
+                                                 std::vector<int>& truth) {
     const auto label = [&](std::size_t k) { return three ? static_cast<int>(k) : k < 2 ? 1 : 0; };
     sample train;
     if (generated)
@@ -82,37 +82,40 @@ inline std::array<answers, 2> taught(const collection& real, const collection& m
     cv::Mat test;
     truth.clear();
     for (const auto& [k, number] : d.test) test.push_back(real.of_class[k][number].shape), truth.push_back(label(k));
-    return {learn_by_vectors(train, test), learn_by_trees(train, test, seed)};
+    return {svm_predictions(train, test), forest_predictions(train, test, seed)};
 }
 
-inline lesson learn(const collection& real, const collection& made, std::size_t count, bool generated, std::size_t most,
-                    std::size_t seeds) {
-    lesson l{count, generated, {}, {}, {}, {}};
+inline trial_result run_trial(const collection& real, const collection& made, std::size_t count, bool generated,
+                              std::size_t max_real, std::size_t seeds) {
+    trial_result l{count, generated, {}, {}, {}, {}};
     for (std::size_t seed = 1; seed <= seeds; ++seed) {
-        const division d(real, most, seed);
+        const division d(real, max_real, seed);
         std::vector<int> truth;
-        const std::array<answers, 2> found = taught(real, made, d, count, generated, false, seed, truth);
+        const std::array<predictions, 2> two_classes =
+            train_and_test(real, made, d, count, generated, false, seed, truth);
         for (std::size_t c = 0; c < 2; ++c) {
-            const std::vector<roc_point> curve = roc_of(truth, found[c].scores);
+            const std::vector<roc_point> curve = roc_of(truth, two_classes[c].scores);
             std::vector<int> predicted;
-            for (const double score : found[c].scores) predicted.push_back(score > 0 ? 1 : 0);
+            for (const double score : two_classes[c].scores) predicted.push_back(score > 0 ? 1 : 0);
             l.area[c].push_back(area_under(curve));
             l.balanced[c].push_back(balanced_accuracy(truth, predicted, 2));
             l.curves[c].push_back(curve);
         }
-        const std::array<answers, 2> named = taught(real, made, d, count, generated, true, seed, truth);
+        const std::array<predictions, 2> three_classes =
+            train_and_test(real, made, d, count, generated, true, seed, truth);
         for (std::size_t c = 0; c < 2; ++c) {
-            l.three[c].push_back(balanced_accuracy(truth, named[c].classes, 3));
+            l.three[c].push_back(balanced_accuracy(truth, three_classes[c].classes, 3));
             for (std::size_t i = 0; i < truth.size(); ++i)
-                l.confusion[c][static_cast<std::size_t>(truth[i])][static_cast<std::size_t>(named[c].classes[i])] += 1;
+                l.confusion[c][static_cast<std::size_t>(truth[i])]
+                           [static_cast<std::size_t>(three_classes[c].classes[i])] += 1;
         }
     }
     return l;
 }
 
-/// How well a forest tells generated bare bottoms from real ones, by texture: the area under its ROC curve over five
-/// parts, each scored by a forest that is trained on the others. 0.5: never, 1: always.
-inline double told_apart(const std::vector<chip>& real, const std::vector<chip>& made) {
+/// How well a forest separates generated bare bottoms from real ones by texture: the area under its ROC curve in
+/// five-fold cross-validation. 0.5: not at all, 1: perfectly.
+inline double separability(const std::vector<chip>& real, const std::vector<chip>& made) {
     std::vector<std::pair<const chip*, int>> all;
     for (const chip& c : real) all.emplace_back(&c, 1);
     for (const chip& c : made) all.emplace_back(&c, 0);
@@ -131,7 +134,7 @@ inline double told_apart(const std::vector<chip>& real, const std::vector<chip>&
             else
                 train.add(all[i].first->texture, all[i].second);
         }
-        for (const double score : learn_by_trees(train, test, part + 1).scores) scores.push_back(score - share);
+        for (const double score : forest_predictions(train, test, part + 1).scores) scores.push_back(score - share);
     }
     return area_under(roc_of(truth, scores));
 }

@@ -1,4 +1,4 @@
-// The training sets that are compared: each is a command line of generate_dataset, and drawn as that draws it.
+// The training sets that are compared: each is a command line of generate_dataset, drawn by the same code.
 #pragma once
 
 #include <insonify/core/thread_pool.hpp>
@@ -14,8 +14,8 @@ namespace in = insonify;
 inline const std::array<std::string, 3> classes{"cylinder", "cube", "sphere"};
 using class_counts = std::array<std::size_t, 3>;
 
-/// The objects as a recipe of generate_dataset: only their sizes are known beforehand, and the simulator's lie within
-/// them.
+/// The objects as options of generate_dataset. Only their sizes are known beforehand: these ranges include the
+/// simulator's.
 inline const std::array<std::vector<std::string>, 3> objects{
     {{"--targets", "cylinder", "--target-size", "0.4:0.6", "--aspect", "0.9:1.15"},
      {"--targets", "cube", "--target-size", "0.4:0.8", "--aspect", "1"},
@@ -67,15 +67,15 @@ inline generator::options options_of(const recipe& r, std::size_t kind, const st
     return o;
 }
 
-/// Draws sets by one recipe.
-class artist {
+/// Draws sets of one recipe.
+class set_renderer {
   public:
-    artist(const recipe& r, const std::vector<std::string>& references, in::thread_pool& pool)
+    set_renderer(const recipe& r, const std::vector<std::string>& references, in::thread_pool& pool)
         : pool_(pool), shared_(options_of(r, 0, references)) {
         for (std::size_t kind = 0; kind < classes.size(); ++kind) of_class_.push_back(options_of(r, kind, references));
     }
 
-    /// Pictures of each class, by turns of seabeds; another seed has none of them.
+    /// Pictures of each class, on the seabeds in turn. Sets of different seeds share no picture.
     std::vector<example> draw_set(const class_counts& counts, std::uint64_t seed) const {
         std::vector<generator::options> of_class = of_class_;
         std::vector<std::pair<std::size_t, std::size_t>> wanted;  // class and number

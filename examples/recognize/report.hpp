@@ -14,7 +14,8 @@ namespace recognition {
 struct outcome {
     std::string name, description;
     std::size_t images;
-    std::vector<confusion> transfer, own;  ///< on the simulator's pictures, and on those of its own kind, if any
+    std::vector<confusion> transfer;  ///< on the simulator's pictures
+    std::vector<confusion> own;       ///< on pictures of the same recipe, if any
 };
 
 inline spread balanced(const std::vector<confusion>& runs) {
@@ -38,11 +39,11 @@ std::string text(const char* format, const Values&... values) {
 /// @param counts  of the test set, by class
 inline std::string markdown(const std::vector<outcome>& outcomes, const class_counts& counts) {
     const double total = static_cast<double>(counts[0] + counts[1] + counts[2]);
-    const double most = static_cast<double>(*std::max_element(counts.begin(), counts.end()));
+    const double largest_class = static_cast<double>(*std::max_element(counts.begin(), counts.end()));
     const double seeds = static_cast<double>(outcomes.front().transfer.size());
     std::string out = text(
         "Balanced accuracy over %.0f training seeds: mean ± standard deviation (lowest to highest).\n\n"
-        "| training pictures | how many | on its own kind | on the simulator's | plain | macro F1 |\n"
+        "| training pictures | number | on its own kind | on the simulator's | plain accuracy | macro F1 |\n"
         "|---|---:|---|---|---:|---:|\n",
         seeds);
     const auto cell = [](const std::vector<confusion>& runs) {
@@ -54,17 +55,18 @@ inline std::string markdown(const std::vector<outcome>& outcomes, const class_co
         out += text("| %s | %zu | %s | %s | %.3f | %.3f |\n", o.description.c_str(), o.images, cell(o.own).c_str(),
                     cell(o.transfer).c_str(), sum(o.transfer).accuracy(), sum(o.transfer).macro_f1());
     out += text(
-        "| none: guessing | - | 0.333 | 0.333 | 0.333 | - |\n| none: always the commonest | - | 0.333 | 0.333 | %.3f | "
-        "- |\n",
-        most / total);
+        "| none: guessing | - | 0.333 | 0.333 | 0.333 | - |\n| none: always the largest class | - | 0.333 | 0.333 | "
+        "%.3f | - |\n",
+        largest_class / total);
 
-    out += "\nRecalls on the simulator's test set, all seeds together: what was shown, and what was answered.\n";
+    out += "\nRecalls on the simulator's test set over all seeds; rows are true classes, columns predictions.\n";
     for (const outcome& o : outcomes) {
         const confusion c = sum(o.transfer);
         out += text("\n| %s, %zu | cylinder | cube | sphere |\n|---|---:|---:|---:|\n", o.name.c_str(), o.images);
         for (std::size_t k = 0; k < 3; ++k)
-            out += text("| %s | %.1f %% | %.1f %% | %.1f %% |\n", classes[k].c_str(), 100 * c.counts[k][0] / c.shown(k),
-                        100 * c.counts[k][1] / c.shown(k), 100 * c.counts[k][2] / c.shown(k));
+            out +=
+                text("| %s | %.1f %% | %.1f %% | %.1f %% |\n", classes[k].c_str(), 100 * c.counts[k][0] / c.actual(k),
+                     100 * c.counts[k][1] / c.actual(k), 100 * c.counts[k][2] / c.actual(k));
     }
     return out;
 }
@@ -86,8 +88,8 @@ inline std::string svg(const std::vector<outcome>& outcomes) {
                     static_cast<int>(i / columns) * height);
         out += text("<text x=\"%d\" y=\"16\" font-weight=\"bold\">%s, %zu: %.2f</text>\n", left,
                     outcomes[i].name.c_str(), outcomes[i].images, balanced(outcomes[i].transfer).mean);
-        out += text("<text x=\"%d\" y=\"32\">answered, %% of those shown</text>\n", left);
-        out += text("<text x=\"%d\" y=\"%d\" text-anchor=\"end\">shown</text>\n", left - 6, top - 8);
+        out += text("<text x=\"%d\" y=\"32\">predicted, %% of the true class</text>\n", left);
+        out += text("<text x=\"%d\" y=\"%d\" text-anchor=\"end\">true</text>\n", left - 6, top - 8);
         for (int k = 0; k < 3; ++k) {
             const std::string& name = classes[static_cast<std::size_t>(k)];
             out += text("<text x=\"%d\" y=\"%d\" text-anchor=\"middle\">%s</text>\n", left + k * cell + cell / 2,
@@ -95,8 +97,8 @@ inline std::string svg(const std::vector<outcome>& outcomes) {
             out += text("<text x=\"%d\" y=\"%d\" text-anchor=\"end\">%s</text>\n", left - 6,
                         top + k * cell + cell / 2 + 4, name.c_str());
             for (int a = 0; a < 3; ++a) {
-                const auto shown = static_cast<std::size_t>(k), answered = static_cast<std::size_t>(a);
-                const double share = c.counts[shown][answered] / c.shown(shown);
+                const auto actual = static_cast<std::size_t>(k), predicted = static_cast<std::size_t>(a);
+                const double share = c.counts[actual][predicted] / c.actual(actual);
                 out += text(
                     "<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" fill=\"#b5651d\" fill-opacity=\"%.3f\" "
                     "stroke=\"#999\"/>\n",

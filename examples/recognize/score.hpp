@@ -1,4 +1,4 @@
-// Scores of answers: confusion matrices and statistics over runs.
+// Scores of predictions: confusion matrices and statistics over runs.
 #pragma once
 
 #include <algorithm>
@@ -9,22 +9,22 @@
 
 namespace recognition {
 
-/// Rows: true classes; columns: answers.
+/// Rows: true classes; columns: predictions.
 struct confusion {
     std::array<std::array<double, 3>, 3> counts{};
 
     confusion() = default;
-    confusion(const std::vector<std::size_t>& truth, const std::vector<std::size_t>& answers) {
-        for (std::size_t i = 0; i < truth.size(); ++i) counts[truth[i]][answers[i]] += 1;
+    confusion(const std::vector<std::size_t>& truth, const std::vector<std::size_t>& predictions) {
+        for (std::size_t i = 0; i < truth.size(); ++i) counts[truth[i]][predictions[i]] += 1;
     }
     confusion& operator+=(const confusion& other) {
         for (std::size_t i = 0; i < 9; ++i) counts[i / 3][i % 3] += other.counts[i / 3][i % 3];
         return *this;
     }
-    double shown(std::size_t kind) const { return counts[kind][0] + counts[kind][1] + counts[kind][2]; }
-    double answered(std::size_t kind) const { return counts[0][kind] + counts[1][kind] + counts[2][kind]; }
-    double total() const { return shown(0) + shown(1) + shown(2); }
-    double recall(std::size_t kind) const { return shown(kind) > 0 ? counts[kind][kind] / shown(kind) : 0; }
+    double actual(std::size_t kind) const { return counts[kind][0] + counts[kind][1] + counts[kind][2]; }
+    double predicted(std::size_t kind) const { return counts[0][kind] + counts[1][kind] + counts[2][kind]; }
+    double total() const { return actual(0) + actual(1) + actual(2); }
+    double recall(std::size_t kind) const { return actual(kind) > 0 ? counts[kind][kind] / actual(kind) : 0; }
 
     double accuracy() const { return (counts[0][0] + counts[1][1] + counts[2][2]) / total(); }
     /// The mean of the classes' recalls: a third for guessing and for one constant answer.
@@ -32,7 +32,7 @@ struct confusion {
     double macro_f1() const {
         double sum = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            const double either = shown(k) + answered(k);
+            const double either = actual(k) + predicted(k);
             sum += either > 0 ? 2 * counts[k][k] / either / 3 : 0;
         }
         return sum;

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""What chips of a plan teach about the pictures of a second ping simulator, whose sizes and display the plan gives.
+"""Trains on chips of a plan and tests on pictures of a second ping simulator, whose sizes and display the plan gives.
 
     examples/recognize/second_simulator.py GENERATE_DATASET [--out FOLDER] [--seeds N]
 
 The simulator shares no code with the library or with examples/ping_simulator. Each look is the coherent sum of point
-scatterers on the bottom and on one target; lines to the sonar meet targets by algebra and the relief on a grid. Writes
-the simulator's pictures and the generator's to FOLDER (out/second), and prints balanced accuracy by whole chips, plain
-gradients and a linear support vector machine. Needs numpy, scikit-image and scikit-learn.
+scatterers on the bottom and on one target; lines to the sonar intersect targets in closed form and the relief on a grid.
+Writes the simulator's pictures and the generator's to FOLDER (out/second), and prints the balanced accuracy of a linear
+support vector machine on histograms of gradients of whole chips. Needs numpy, scikit-image and scikit-learn.
 """
 
 import argparse
@@ -32,11 +32,11 @@ SIZE, PIXEL, WAVELENGTH = 128, 0.05, 1500 / 600e3  # pixels a side, metres, metr
 EXTENT = SIZE * PIXEL
 BORDER = 0.3  # metres around the picture whose scatterers leak into it
 
-# What a plan gives, besides what lies in a chip: uniform ranges.
+# Ranges, uniform, of the values that a plan gives besides the contents of a chip.
 ALTITUDE, DISTANCE = (5, 9), (2.0, 3.8)  # metres; ground range over altitude
 ALONG, DISPLAY_RANGE = (0.05, 0.09), (30, 40)  # resolution along the track, metres; decibels from black to white
 BOTTOMS = ("sand", "sand", "sand", "ripples")
-BOTTOM = 0.5  # what the generator's bottoms return, about
+BOTTOM = 0.5  # approximate intensity of the generator's bottoms
 
 
 def sampled_size(g, shape):
@@ -111,7 +111,7 @@ class Solid:
 
 
 def relief(g, x, y, bottom):
-    """Heights of a gently undulating bottom, with ripples if asked for. Metres."""
+    """Heights of a gently undulating bottom, with ripples if `bottom` is "ripples", metres."""
     rms, correlation = g.uniform(0.005, 0.03), g.uniform(0.6, 3)
     z = np.zeros_like(x)
     for _ in range(24):
@@ -165,7 +165,7 @@ def picture(shape, seed):
     turn = np.array([[np.cos(heading), -np.sin(heading), 0], [np.sin(heading), np.cos(heading), 0], [0, 0, 1.0]])
     intensity, floor = np.zeros((SIZE, SIZE)), None
     for _ in range(looks):
-        # The bottom: Lambert's law, where neither a crest nor the target is in the way.
+        # The bottom: Lambert's law, where neither a crest nor the target blocks the path.
         n = int(density * (far - near) * (high - low) / 2)
         x, y = g.uniform(near, far, n), g.uniform(low, high, n)
         here = cell(x, y)
@@ -218,7 +218,7 @@ def draw(folder, seed, counts):
 
 
 def write_plan(path, seed, count, whites, knows_looks):
-    """A line for each chip of the generator, with what a search knows beforehand."""
+    """Writes a line for each chip of the generator, with the values that are known beforehand in a search."""
     g = np.random.default_rng(seed)
     with open(path, "w", newline="", encoding="utf-8") as file:
         table = None
@@ -260,7 +260,7 @@ def features(files):
     return np.array([hog(c, orientations=9, pixels_per_cell=(8, 8), cells_per_block=(2, 2)) for c in chips])
 
 
-def taught(sample, test):
+def train_and_test(sample, test):
     """Balanced accuracy on the test set; the penalty is chosen on the training pictures alone. @returns it, and a matrix"""
     machine = make_pipeline(StandardScaler(), LinearSVC(class_weight="balanced", max_iter=4000))
     penalties = {"linearsvc__C": [1e-5, 1e-4, 1e-3, 1e-2, 1e-1]}
@@ -293,8 +293,8 @@ def main():
             sets[f"recipe sonar, by {kind}"].append((features(files), names))
     print("| training pictures | sets of 390 | all together | confusion, sets added |\n|---|---|---:|---|")
     for kind, samples in sets.items():
-        results = [taught(sample, test) for sample in samples]
-        together, _ = taught((np.concatenate([s[0] for s in samples]), sum((s[1] for s in samples), [])), test)
+        results = [train_and_test(sample, test) for sample in samples]
+        together, _ = train_and_test((np.concatenate([s[0] for s in samples]), sum((s[1] for s in samples), [])), test)
         matrix = np.sum([matrix for _, matrix in results], axis=0).tolist()
         print(f"| {kind} | {', '.join(f'{accuracy:.3f}' for accuracy, _ in results)} | {together:.3f} | {matrix} |", flush=True)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests the solids of second_simulator.py against their definitions; exits with 77 if its packages are not installed."""
+"""Tests the solids of second_simulator.py against their definitions; exits with code 77 if its packages are not installed."""
 
 import sys
 import unittest

@@ -29,7 +29,7 @@ class Recognition(unittest.TestCase):
         self.assertTrue((out / "confusion.svg").read_text().endswith("</svg>\n"))
         return (out / "report.md").read_text()
 
-    def test_the_report_holds_every_run_whatever_the_threads(self):
+    def test_the_report_holds_every_run_and_does_not_depend_on_threads(self):
         report = self.report("a", "--threads", 1)
         self.assertEqual(report, self.report("b", "--threads", 3))
         rows = [row.split(" | ") for row in report.splitlines() if re.match(r"\|.* \| (12|24) \|", row)]

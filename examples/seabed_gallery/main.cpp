@@ -1,6 +1,6 @@
-// Every type of seabed at three grazing angles, beside real ones: seabed_gallery [out.png] [folder of real tiles]
+// Every type of seabed at three grazing angles, beside real ones: seabed_gallery [seabeds.png [folder of real tiles]]
 //
-// Prints texture statistics of each tile, and those of the real tiles if they are there.
+// Prints texture statistics of each tile, and of the real tiles if the folder exists.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
@@ -64,7 +64,7 @@ std::vector<entry> entries() {
     };
 }
 
-/// A tile of the bottom as a sonar records it on the ground, its middle seen at a grazing angle from 18 m away.
+/// A tile of the bottom in ground range, its middle 18 m away at a given grazing angle.
 in::image<float> tile_of(const sb::any& seabed, double cell, int degrees, in::thread_pool& pool) {
     const double distance = 18, half = 0.5 * tile_width * cell;
     in::scene scene;
@@ -80,7 +80,7 @@ in::image<float> tile_of(const sb::any& seabed, double cell, int degrees, in::th
     return in::with_speckle(recorded, {.seed = 11}, pool).image;
 }
 
-/// Gray values, the mean intensity where sonar operators set it.
+/// Gray values; white is 7 times the mean intensity, a typical setting of sonar operators.
 in::image<float> shown(const in::image<float>& intensity) {
     double mean = 0;
     for (const float i : intensity.pixels()) mean += static_cast<double>(i) / static_cast<double>(intensity.size());
@@ -89,8 +89,8 @@ in::image<float> shown(const in::image<float>& intensity) {
 
 void describe(const char* name, const char* view, const in::image<float>& picture) {
     const gallery::texture t = gallery::texture_of(picture);
-    std::printf("%-30s %-9s %9.2f %8.2f %8.2f %8.2f %8.2f %8.2f %8.2f %8.0f %8.2f\n", name, view, t.deviation,
-                t.skewness, t.correlation, t.along, t.contrast, t.evenness, t.slope, t.direction, t.stretch);
+    std::printf("%-30s %-9s %9.2f %8.2f %8.2f %8.2f %8.2f %11.2f %8.2f %8.0f %10.2f\n", name, view, t.deviation,
+                t.skewness, t.across, t.along, t.contrast, t.homogeneity, t.slope, t.direction, t.anisotropy);
 }
 
 void paste(in::image<float>& sheet, int left, int top, const in::image<float>& tile, int from_x, int from_y) {
@@ -117,8 +117,8 @@ int main(int argc, char** argv) try {
     in::image<float> sheet(columns * (tile_width + gap) + gap,
                            caption + static_cast<int>(all.size()) * (tile_height + gap + caption) + gap, 0.1f);
     examples::write_text(sheet, gap + 2, 4, "sound travels from left to right", 1.0f);
-    std::printf("%-30s %-9s %9s %8s %8s %8s %8s %8s %8s %8s %8s\n", "seabed", "view", "deviation", "skewness", "across",
-                "along", "contrast", "evenness", "slope", "degrees", "stretch");
+    std::printf("%-30s %-9s %9s %8s %8s %8s %8s %11s %8s %8s %10s\n", "seabed", "view", "deviation", "skewness",
+                "across", "along", "contrast", "homogeneity", "slope", "degrees", "anisotropy");
     int top = caption + gap;
     for (const entry& e : all) {
         int left = gap;

@@ -14,14 +14,14 @@ namespace gallery {
 struct texture {
     double deviation;    ///< of the gray values, over their mean
     double skewness;     ///< of the gray values
-    double tails;        ///< their kurtosis
-    double correlation;  ///< of neighbours across the track; the next: along it
-    double along;
-    double contrast;   ///< of the gray-level co-occurrence matrix, 8 equally frequent levels, 2 pixels apart
-    double evenness;   ///< its homogeneity
-    double slope;      ///< of the radially averaged periodogram, from 4 to n / 8 cycles
-    double direction;  ///< of the periodogram's longer axis below n / 8 cycles, degrees; the next: how much longer
-    double stretch;    ///< 0 for a round one, 1 for a line
+    double kurtosis;     ///< of the gray values
+    double across;       ///< correlation of adjacent pixels across the track
+    double along;        ///< correlation of adjacent pixels along the track
+    double contrast;     ///< of the gray-level co-occurrence matrix, 8 equally frequent levels, 2 pixels apart
+    double homogeneity;  ///< of that matrix
+    double slope;        ///< of the radially averaged periodogram, from 4 to n / 8 cycles
+    double direction;    ///< of the periodogram's longer axis below n / 8 cycles, degrees
+    double anisotropy;   ///< of the periodogram there: 0 for a round one, 1 for a line
 };
 
 /// Discrete Fourier transform of 2^k values, in place.
@@ -92,8 +92,8 @@ inline texture texture_of(insonify::image_view<const float> picture) {
     const double variance = mean_of(0, 0, product);
     t.deviation = std::sqrt(variance) / mean;
     t.skewness = mean_of(0, 0, [&](double a, double) { return std::pow(a - mean, 3); }) / std::pow(variance, 1.5);
-    t.tails = mean_of(0, 0, [&](double a, double) { return std::pow(a - mean, 4); }) / (variance * variance);
-    t.correlation = mean_of(1, 0, product) / variance;
+    t.kurtosis = mean_of(0, 0, [&](double a, double) { return std::pow(a - mean, 4); }) / (variance * variance);
+    t.across = mean_of(1, 0, product) / variance;
     t.along = mean_of(0, 1, product) / variance;
 
     std::vector<float> sorted(static_cast<std::size_t>(count));
@@ -105,7 +105,7 @@ inline texture texture_of(insonify::image_view<const float> picture) {
         return std::floor(8 * static_cast<double>(rank) / count);
     };
     t.contrast = mean_of(2, 0, [&](double a, double b) { return std::pow(level(a) - level(b), 2); });
-    t.evenness = mean_of(2, 0, [&](double a, double b) { return 1 / (1 + std::abs(level(a) - level(b))); });
+    t.homogeneity = mean_of(2, 0, [&](double a, double b) { return 1 / (1 + std::abs(level(a) - level(b))); });
 
     const int n = square_in(width, height);
     const insonify::image<double> power = periodogram(picture, n);
@@ -125,14 +125,14 @@ inline texture texture_of(insonify::image_view<const float> picture) {
         }
     double s = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
     for (std::size_t r = 4; r <= static_cast<std::size_t>(n / 8); ++r) {
-        // As many points per octave everywhere: rings count by their inverse radius.
+        // Rings are weighted by their inverse radius, so that every octave has the same weight.
         const double w = 1 / static_cast<double>(r), a = std::log(static_cast<double>(r)),
                      b = std::log(ring[r] / members[r]);
         s += w, sx += w * a, sy += w * b, sxx += w * a * a, sxy += w * a * b;
     }
     t.slope = (s * sxy - sx * sy) / (s * sxx - sx * sx);
     t.direction = 0.5 * std::atan2(2 * xy, xx - yy) * 180 / std::numbers::pi;
-    t.stretch = std::hypot(xx - yy, 2 * xy) / (xx + yy);
+    t.anisotropy = std::hypot(xx - yy, 2 * xy) / (xx + yy);
     return t;
 }
 

@@ -1,8 +1,8 @@
 // Compares rendered bottoms with real ones: seabed_textures [folder of real tiles]
 //
-// Prints statistics of bottoms in slant range, by kind, and how far their means lie from those of real crops of the
-// kind, in standard deviations over the crops. Fails if one lies beyond the kind's tolerance. The real tiles are
-// of a synthetic aperture, tone-mapped; grain, grazing angle and display below are those at which they agree best.
+// Prints statistics of bottoms in slant range, by kind, and the distance of their means from those of real crops of the
+// kind, in standard deviations over the crops. Fails if one exceeds the kind's tolerance. The real tiles are
+// tone-mapped synthetic-aperture images; grain, grazing angle and display below were fitted to them.
 #include <insonify/insonify.hpp>
 #include <insonify/sonar/bottom_tone.hpp>
 #include <insonify/sonar/side_scan/water_column.hpp>
@@ -94,7 +94,7 @@ const kind kinds[] = {
      0.3f,
      0.025f,
      tone_of(1, 0.4f)},
-    // No tile shows bare rock: the roughest bottoms stand for it.
+    // No tile shows bare rock; the roughest bottoms take its place.
     {"rock",
      1.5,
      {{"12", 10, 20}, {"08", 0, 20}, {"08", 0, 200}, {"04", 200, 20}, {"00", 0, 270}},
@@ -115,28 +115,28 @@ in::image<float> rendered(const kind& k, std::uint32_t seed) {
                             .bins = width};
     const in::sonar_equation equation{in::pulse{0.03f}, in::horizontal_beam{0.0015f}, in::level_gain{}};
     const in::facet_backscatter echo{.facets = 0, .volume = k.volume};
-    auto heard = in::render(scene, rig, in::record_options<>{}.with(echo).with(equation));
+    auto recording = in::render(scene, rig, in::record_options<>{}.with(echo).with(equation));
 
     in::bottom_tone tone = k.tone;
     tone.seed = seed;
-    heard = in::with_tone(std::move(heard), rig, tone);
-    heard.image = std::move(heard.image) | in::water_column{.first_range = rig.first_range,
-                                                            .bin = static_cast<float>(rig.bin()),
-                                                            .noise = k.noise,
-                                                            .noise_range = static_cast<float>(slant)};
+    recording = in::with_tone(std::move(recording), rig, tone);
+    recording.image = std::move(recording.image) | in::water_column{.first_range = rig.first_range,
+                                                                    .bin = static_cast<float>(rig.bin()),
+                                                                    .noise = k.noise,
+                                                                    .noise_range = static_cast<float>(slant)};
     in::seabed_speckle speckle{.elsewhere = {.looks = 1}, .along_track = grain, .across_track = grain, .seed = seed};
     for (in::speckle_law& law : speckle.bottom) law = {.looks = 1};
-    heard = in::with_speckle(std::move(heard), speckle);
-    return std::move(heard.image) | shown;
+    recording = in::with_speckle(std::move(recording), speckle);
+    return std::move(recording.image) | shown;
 }
 
-constexpr const char* names[] = {"deviation", "skewness", "tails", "across", "along",
-                                 "contrast",  "evenness", "slope", "stretch"};
+constexpr const char* names[] = {"deviation", "skewness",    "kurtosis", "across",    "along",
+                                 "contrast",  "homogeneity", "slope",    "anisotropy"};
 using row = std::array<double, std::size(names)>;
 
 row statistics_of(const in::image<float>& picture) {
     const gallery::texture t = gallery::texture_of(picture);
-    return {t.deviation, t.skewness, t.tails, t.correlation, t.along, t.contrast, t.evenness, t.slope, t.stretch};
+    return {t.deviation, t.skewness, t.kurtosis, t.across, t.along, t.contrast, t.homogeneity, t.slope, t.anisotropy};
 }
 
 struct spread {
@@ -156,7 +156,7 @@ spread spread_of(const std::vector<row>& rows) {
 
 void print(const char* name, const char* what, const row& values) {
     std::printf("%-8s %-9s", name, what);
-    for (const double v : values) std::printf("%10.2f", v);
+    for (const double v : values) std::printf("%12.2f", v);
     std::printf("\n");
 }
 
@@ -167,7 +167,7 @@ int main(int argc, char** argv) try {
     const std::string folder = argc > 1 ? argv[1] : EXAMPLES_REFERENCE "/sas_sassed";
     if (!std::filesystem::exists(folder)) return std::printf("no real tiles in %s\n", folder.c_str()), 77;
     std::printf("%-18s", "");
-    for (const char* name : names) std::printf("%10s", name);
+    for (const char* name : names) std::printf("%12s", name);
     std::printf("\n");
     int beyond = 0;
     for (const kind& k : kinds) {

@@ -1,4 +1,4 @@
-// A map: the relief in relief shading, north up, with the track and the targets on it.
+// A map, north up: shaded relief with the track and the targets on it.
 #pragma once
 
 #include <insonify/seabed/sample.hpp>
@@ -9,7 +9,8 @@ namespace survey {
 
 class chart {
   public:
-    /// @param low, high  corners of what is shown, metres
+    /// @param low, high  corners of the map, metres
+    /// @param longer     pixels along its longer side
     chart(const in::seabed::any& seabed, glm::dvec2 low, glm::dvec2 high, int longer, auto& ex) {
         const glm::dvec2 size = high - low;
         spacing_ = (std::max)(size.x, size.y) / (longer - 1);

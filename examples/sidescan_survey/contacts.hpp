@@ -7,7 +7,7 @@
 
 namespace survey {
 
-/// A target's box in the waterfall; it grows until the target is out of sight.
+/// Bounds of a target and its shadow in the waterfall; they grow until the target is out of sight.
 struct contact {
     in::target target;
     in::side side;
@@ -27,8 +27,8 @@ class contact_list {
                  "height_m,range_m,altitude_m,grazing_deg,aspect_deg,shadow_theory_m,shadow_measured_m,shadow_is_cut,"
                  "target_is_cut") {}
 
-    /// Looks through a block for targets and their shadows.
-    void look_at(const block& b, const sight& in_sight) {
+    /// Updates the contacts with the targets and shadows of a block.
+    void add(const block& b, const sight& in_sight) {
         const int bins = b.gray.width() / 2;
         for (int row = 0; row < b.gray.height(); ++row)
             for (int x = 0; x < 2 * bins; ++x) {
@@ -49,8 +49,8 @@ class contact_list {
             }
     }
 
-    /// Writes and forgets contacts that have not been seen since a ping.
-    /// @param is_end  the survey ends there
+    /// Writes and removes the contacts last seen before a ping.
+    /// @param is_end  whether the survey ends at that ping
     void close(std::int64_t before, const in::side_scan& rig, bool is_end = false) {
         for (auto at = open_.begin(); at != open_.end();) {
             if (at->second.last_ping >= before) {

@@ -1,5 +1,5 @@
-// Targets strewn over the whole plane, at most one in each square of a lattice, so that a scene holds only those in
-// sight.
+// Targets scattered over the whole plane, at most one in each square of a lattice. Targets of a square depend on it
+// alone, so that a scene holds only those in sight.
 #pragma once
 
 #include <insonify/insonify.hpp>
@@ -17,7 +17,7 @@ using square = std::pair<std::int64_t, std::int64_t>;
 class target_field {
   public:
     /// @param spacing  metres from square to square
-    /// @param share    of the squares that hold a target, 0 to 1
+    /// @param share    fraction of the squares that hold a target
     target_field(const in::seabed::any& seabed, double spacing, double share, std::uint64_t seed)
         : seabed_(seabed), spacing_(spacing), share_(share), seed_(seed) {}
 

@@ -35,7 +35,7 @@ class logbook {
         }
         for (const in::target& t : in_sight.scene.targets)
             map_.mark(glm::dvec2(t.placement.position), {220, 30, 30}, 2);
-        contacts_.look_at(b, in_sight);
+        contacts_.add(b, in_sight);
         // Contacts last seen before this block are complete.
         contacts_.close(b.pings.front().number, rig);
     }

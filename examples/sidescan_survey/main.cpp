@@ -1,7 +1,7 @@
-// sidescan_survey: a vehicle follows way-points over a seabed with targets. Writes a waterfall of both sides, its
+// sidescan_survey: a vehicle follows waypoints over a seabed with targets. Writes a waterfall of both sides, its
 // labels, the navigation, a line per contact, and a map. See --help.
 //
-// It works in blocks of pings and keeps nothing but the block: a track of any length takes the same memory.
+// Works in blocks of pings, of which only the current one is kept: memory does not grow with the track.
 #include <insonify/core/thread_pool.hpp>
 
 #include <filesystem>
@@ -18,7 +18,7 @@ int main(int argc, char** argv) try {
         o.waypoints.empty() ? survey::lawnmower(o.length, o.width, o.between) : survey::read_waypoints(o.waypoints);
     const in::seabed::any seabed = survey::bottom_of(o);
 
-    // Once along the track without a sonar: for the number of pings and the bounds of the map.
+    // A first pass along the track, without a sonar, finds the number of pings and the bounds of the map.
     std::int64_t total = 0;
     glm::dvec2 low(1e30), high(-1e30);
     survey::fix f{};
@@ -26,7 +26,7 @@ int main(int argc, char** argv) try {
         low = {(std::min)(low.x, f.at.position.x), (std::min)(low.y, f.at.position.y)};
         high = {(std::max)(high.x, f.at.position.x), (std::max)(high.y, f.at.position.y)};
     }
-    if (total == 0) throw in::io_error("the way-points leave no room for a ping");
+    if (total == 0) throw in::io_error("the waypoints are too close together for a single ping");
 
     survey::vehicle vehicle(o.driving, waypoints);
     survey::sonar sonar(o, vehicle.spacing());
@@ -35,12 +35,12 @@ int main(int argc, char** argv) try {
     survey::lookout lookout;
 
     examples::progress bar(static_cast<std::size_t>(total));
-    constexpr int most = 128;
+    constexpr int block_size = 128;
     const int halo = sonar.halo();
-    std::vector<survey::fix> window;  // the block, with the pings before and after it that its beam overlaps
+    std::vector<survey::fix> window;  // the block, and the pings before and after it that its beam overlaps
     for (int before = 0;;) {
-        while (static_cast<int>(window.size()) < before + most + halo && vehicle.ping(f)) window.push_back(f);
-        const int count = (std::min)(most, static_cast<int>(window.size()) - before);
+        while (static_cast<int>(window.size()) < before + block_size + halo && vehicle.ping(f)) window.push_back(f);
+        const int count = (std::min)(block_size, static_cast<int>(window.size()) - before);
         if (count == 0) break;
         std::vector<in::ping> track;
         for (const survey::fix& w : window) track.push_back(w.at);

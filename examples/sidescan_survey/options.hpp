@@ -25,36 +25,39 @@ inline options parse(int argc, char** argv) {
     CLI::App app{"Runs a side-scan survey and writes its waterfall, labels, navigation, contacts and map.",
                  "sidescan_survey"};
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    app.add_option("--out", o.out, "Folder; made if need be")->required();
-    app.add_option("--waypoints", o.waypoints, "File of lines x,y in metres; otherwise legs to and fro");
-    app.add_option("--length", o.length, "Of a leg, metres (60)")->check(examples::number(1.0, 1e6));
-    app.add_option("--width", o.width, "Of the surveyed area, metres (80)")->check(examples::number(0.0, 1e6));
-    app.add_option("--between", o.between, "From leg to leg, metres (40)")->check(examples::number(1.0, 1e6));
-    app.add_option("--speed", o.driving.speed, "Metres per second (1.5)")->check(examples::number(0.01, 100.0));
-    app.add_option("--ping-rate", o.driving.ping_rate, "Per second (15)")->check(examples::number(0.1, 1000.0));
-    app.add_option("--turn-rate", o.driving.turn_rate, "Degrees per second at most (6)")
+    app.add_option("--out", o.out, "Folder of the output; created if missing")->required();
+    app.add_option("--waypoints", o.waypoints,
+                   "File of lines x,y in metres (parallel legs of --length, --width, --between)");
+    app.add_option("--length", o.length, "Length of a leg, metres (60)")->check(examples::number(1.0, 1e6));
+    app.add_option("--width", o.width, "Width of the surveyed area, metres (80)")->check(examples::number(0.0, 1e6));
+    app.add_option("--between", o.between, "Distance between legs, metres (40)")->check(examples::number(1.0, 1e6));
+    app.add_option("--speed", o.driving.speed, "Speed, metres per second (1.5)")->check(examples::number(0.01, 100.0));
+    app.add_option("--ping-rate", o.driving.ping_rate, "Pings per second (15)")->check(examples::number(0.1, 1000.0));
+    app.add_option("--turn-rate", o.driving.turn_rate, "Maximum turn rate, degrees per second (6)")
         ->check(examples::number(0.1, 360.0));
-    app.add_option("--altitude", o.driving.altitude, "Metres (6)")->check(examples::number(0.1, 1000.0));
-    app.add_option("--altitude-change", o.driving.altitude_change, "Slow rise and fall, metres (1.5)")
+    app.add_option("--altitude", o.driving.altitude, "Mean altitude, metres (6)")->check(examples::number(0.1, 1000.0));
+    app.add_option("--altitude-change", o.driving.altitude_change,
+                   "Amplitude of slow changes of altitude, metres (1.5)")
         ->check(examples::number(0, 1000));
-    app.add_option("--heave", o.driving.heave, "Rise and fall with the swell, metres (0.15)")
+    app.add_option("--heave", o.driving.heave, "Amplitude of the heave by the swell, metres (0.15)")
         ->check(examples::number(0, 100));
-    app.add_option("--range", o.range, "Of each side, metres (30)")->check(examples::number(1.0, 1e4));
-    app.add_option("--bins", o.bins, "Of each side (1024)")->check(CLI::Range(8, 65536));
-    app.add_option("--beam", o.beam, "Width along the track, degrees (0.3)")->check(examples::number(1e-3, 20.0));
-    app.add_option("--targets", o.targets, "How many, per square of 10 m (0.5)")->check(examples::number(0.0, 1.0));
+    app.add_option("--range", o.range, "Range of each side, metres (30)")->check(examples::number(1.0, 1e4));
+    app.add_option("--bins", o.bins, "Bins of each side (1024)")->check(CLI::Range(8, 65536));
+    app.add_option("--beam", o.beam, "Along-track beamwidth, degrees (0.3)")->check(examples::number(1e-3, 20.0));
+    app.add_option("--targets", o.targets, "Targets per 10 m x 10 m (0.5)")->check(examples::number(0.0, 1.0));
     app.add_option("--bottom", o.bottom, "ripples+mud, ripples+sand, sand+rock or mud+rock (ripples+mud)")
         ->check(CLI::IsMember({"ripples+mud", "ripples+sand", "sand+rock", "mud+rock"}));
-    app.add_option("--page", o.page, "Rows of a page (1024)")->check(CLI::Range(16, 16384));
-    app.add_option("--seed", o.seed, "Another seed is another seabed, with other targets (1)")
+    app.add_option("--page", o.page, "Rows of a page of the waterfall (1024)")->check(CLI::Range(16, 16384));
+    app.add_option("--seed", o.seed, "Seed of the seabed and the targets (1)")
         ->check(examples::whole_number(0, UINT64_MAX));
-    app.add_option("--threads", o.threads, "0: one for each hardware thread; never changes a byte")
+    app.add_option("--threads", o.threads,
+                   "Number of threads, 0 for one per hardware thread (0); does not change the output")
         ->check(examples::whole_number(0, 1024));
     try {
         app.parse(argc, argv);
         if (o.driving.altitude_change + o.driving.heave >= o.driving.altitude)
             throw CLI::ValidationError("--altitude", CLI::detail::to_string(o.driving.altitude) +
-                                                         " m is no more than --altitude-change and --heave take away");
+                                                         " m does not exceed --altitude-change and --heave together");
     } catch (const CLI::ParseError& error) {
         examples::exit_after(app, error);
     }

@@ -54,7 +54,7 @@ class Survey(unittest.TestCase):
             self.assertEqual((len(rows), len(rows[0])), (len(track), 2 * BINS))
         self.assertGreater(len({round(float(p["heading_deg"])) for p in track}), 20)  # it turns
 
-        # The first return is the bottom right below, on both sides: relief and targets may come before.
+        # The first return comes from the bottom below, on both sides; relief and targets may come earlier.
         late = 0
         for row, ping in zip(seabed, track):
             expected = float(ping["altitude_over_bottom_m"]) / RANGE * BINS
@@ -89,8 +89,8 @@ class Survey(unittest.TestCase):
                 self.assertEqual(c["shadow_is_cut"], "true")
             if last == BINS - 1 or c["first_ping"] == "0" or int(c["last_ping"]) == len(targets) - 1:
                 self.assertEqual(c["target_is_cut"], "true", c)
-            # A whole shadow far from nadir ends where that of the vertex ends that casts farthest, whatever the
-            # target's shape and heading; the bottom's relief adds its own.
+            # An uncut shadow far from nadir ends at the tip of the vertex that casts farthest, for any shape and heading of
+            # the target; the tolerance is for the bottom's relief.
             if c["shadow_is_cut"] == "false" and c["target_is_cut"] == "false" and float(c["grazing_deg"]) < 35:
                 self.assertAlmostEqual(float(c["shadow_measured_m"]), float(c["shadow_theory_m"]),
                                        delta=0.1 * float(c["shadow_theory_m"]) + 0.12, msg=c)
@@ -107,17 +107,17 @@ class Survey(unittest.TestCase):
             self.assertIn(f"{name}: can't be written", run("--out", out, *SMALL, expect=1))
 
     def test_a_longer_track_takes_no_more_memory(self):
-        def most_memory(length):
+        def peak_memory(length):
             code = ("import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True, stdout=subprocess.DEVNULL);"
                     "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)")
             options = ["--out", self.folder / f"l{length}", "--length", length, "--width", 0, "--range", RANGE, "--bins",
                        128, "--page", 64, "--altitude-change", 0, "--threads", 1]
             return int(subprocess.run([sys.executable, "-c", code, SURVEY, *map(str, options)], capture_output=True,
                                       text=True, check=True).stdout)
-        short, long = most_memory(60), most_memory(600)
+        short, long = peak_memory(60), peak_memory(600)
         self.assertLess(long, 1.25 * short)
 
-    def test_way_points_come_from_a_file_and_nonsense_is_refused(self):
+    def test_waypoints_come_from_a_file_and_invalid_ones_are_refused(self):
         (self.folder / "points.csv").write_text("# x,y\n0,0\n0,10\n8,10\n")
         out = ["--out", self.folder / "a", "--range", RANGE, "--bins", BINS, "--turn-rate", 60]
         run(*out, "--waypoints", self.folder / "points.csv")

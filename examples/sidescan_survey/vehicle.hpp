@@ -1,4 +1,4 @@
-// The vehicle: steers from way-point to way-point, heaves and sends pings.
+// The vehicle: steers from waypoint to waypoint, heaves and sends pings.
 #pragma once
 
 #include <insonify/sonar/side_scan/side_scan.hpp>
@@ -24,7 +24,7 @@ struct handling {
     double altitude_change = 1.5;  ///< amplitude of its slow rise and descent
     double heave = 0.15;           ///< amplitude of its motion with the swell
     double heave_period = 7;
-    double arrival = 2;  ///< distance at which a way-point counts as reached
+    double arrival = 2;  ///< distance at which a waypoint counts as reached
 };
 
 /// One ping and when it was sent.
@@ -34,7 +34,7 @@ struct fix {
     in::ping at;
 };
 
-/// Legs side by side, ploughed to and fro, within length x width metres from the origin.
+/// Parallel legs in alternating directions that cover length x width metres from the origin.
 inline std::vector<glm::dvec2> lawnmower(double length, double width, double between) {
     std::vector<glm::dvec2> points;
     bool forwards = true;
@@ -43,7 +43,7 @@ inline std::vector<glm::dvec2> lawnmower(double length, double width, double bet
     return points;
 }
 
-/// Way-points from lines "x,y" in metres; empty lines and those that begin with # are passed over.
+/// Waypoints from lines "x,y" in metres; empty lines and lines that begin with # are skipped.
 /// @throws io_error that names the line that isn't two numbers
 inline std::vector<glm::dvec2> parse_waypoints(std::string_view text, const std::string& name) {
     std::vector<glm::dvec2> points;
@@ -73,7 +73,7 @@ inline std::vector<glm::dvec2> parse_waypoints(std::string_view text, const std:
         if (!line.empty()) refuse();
         points.emplace_back(x, y);
     }
-    if (points.size() < 2) throw in::io_error(name + ": two way-points are needed at least");
+    if (points.size() < 2) throw in::io_error(name + ": has fewer than two waypoints");
     return points;
 }
 
@@ -82,23 +82,23 @@ inline std::vector<glm::dvec2> read_waypoints(const std::string& path) {
     return parse_waypoints(examples::read_input(path), path);
 }
 
-/// Follows a list of way-points, a ping at a time, in constant memory.
+/// Follows a list of waypoints, one ping at a time.
 class vehicle {
   public:
     vehicle(const handling& h, std::span<const glm::dvec2> points) : handling_(h), points_(points), place_(points[0]) {
-        yaw_ = wanted();
+        yaw_ = course();
     }
 
-    /// @returns whether there was another ping before the last way-point
+    /// Moves on to the next ping. @returns false at the last waypoint
     bool ping(fix& f) {
-        while (next_ < points_.size() && is_there()) ++next_;
+        while (next_ < points_.size() && has_reached_next()) ++next_;
         if (next_ >= points_.size()) return false;
         const double step = 1 / handling_.ping_rate, time = static_cast<double>(number_) * step;
-        // The shorter way round, as fast as it can.
-        const double turn = 2 * in::numeric::pi, most = in::numeric::to_radians(handling_.turn_rate) * step;
-        double off = wanted() - yaw_;
+        // Turns the shorter way, limited by the turn rate.
+        const double turn = 2 * in::numeric::pi, max_step = in::numeric::to_radians(handling_.turn_rate) * step;
+        double off = course() - yaw_;
         off -= turn * static_cast<double>(in::numeric::floor_to_int(off / turn + 0.5));
-        yaw_ += (std::min)((std::max)(off, -most), most);
+        yaw_ += (std::min)((std::max)(off, -max_step), max_step);
         const auto [sine, cosine] = in::numeric::sin_cos(yaw_);
         place_ += handling_.speed * step * glm::dvec2(-sine, cosine);
 
@@ -112,12 +112,13 @@ class vehicle {
     double spacing() const { return handling_.speed / handling_.ping_rate; }
 
   private:
-    double wanted() const {
+    /// Yaw towards the next waypoint.
+    double course() const {
         const glm::dvec2 to = points_[(std::min)(next_, points_.size() - 1)] - place_;
         return in::numeric::atan2(-to.x, to.y);
     }
-    /// Reached, or passed: a way-point within the turning circle can't be reached.
-    bool is_there() const {
+    /// Whether the next waypoint is reached, or passed: one within the turning circle can't be reached.
+    bool has_reached_next() const {
         const glm::dvec2 to = points_[next_] - place_;
         const auto [sine, cosine] = in::numeric::sin_cos(yaw_);
         const double distance = in::numeric::square_root(to.x * to.x + to.y * to.y);

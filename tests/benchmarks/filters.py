@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The filters of benchmarks/filters.cpp by OpenCV, numpy and scikit-image: filters.py [threads] [pixels].
 
-Prints the best of 15 in milliseconds. What is not installed is left out, by name.
+Prints the best of 15 in milliseconds. Names and skips packages that are not installed.
 """
 
 import importlib
@@ -16,7 +16,7 @@ def optional(name):
     try:
         return importlib.import_module(name)
     except ImportError:
-        print(f"Without {name}, which is not installed for {sys.executable}.", file=sys.stderr)
+        print(f"{name} is not installed for {sys.executable}: skipped.", file=sys.stderr)
         return None
 
 

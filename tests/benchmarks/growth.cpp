@@ -1,5 +1,5 @@
 // How the work of a frame grows: growth [sizes] draws the reference workload in S, M, L and twice L, on one thread and
-// on two, and prints a line for each: medians, what a triangle and a pixel cost together, and the most memory in use.
+// on two, and prints a line for each: medians, cost per triangle and pixel, and peak memory.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

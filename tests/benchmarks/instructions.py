@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Counts the instructions of the pieces of work and holds them to what they took before.
+"""Counts the instructions of pieces of work and compares them with recorded counts.
 
     instructions.py PROGRAM RECORD [--record]
 
-Valgrind counts each piece done once and done twice; the difference is the piece, the same on every machine with AVX2,
-however busy. RECORD has a line `name count` for each. More than 3 % above it fails; --record writes it anew.
+Valgrind counts each piece executed once and twice; the difference is the piece, the same on every machine with AVX2 and
+under any load. RECORD has a line `name count` for each. A count more than 3 % above its record fails; --record writes RECORD.
 """
 
 import pathlib
@@ -32,11 +32,11 @@ def main():
     more = []
     for name, count in counts.items():
         limit = before.get(name, 0) * TOLERANCE
-        print(f"{name:16} {count:12} {count / before.get(name, count):6.3f} x of before")
+        print(f"{name:16} {count:12} {count / before.get(name, count):6.3f} x of the record")
         if count > limit:
             more.append(name)
     if more:
-        sys.exit(f"More instructions than before: {', '.join(more)}. If they are worth it: --record.")
+        sys.exit(f"More instructions than recorded: {', '.join(more)}. --record accepts the new counts.")
 
 
 main()

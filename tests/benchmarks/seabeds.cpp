@@ -1,4 +1,4 @@
-// Times of seabeds: seabeds [threads] prints the least of 25 times, in milliseconds, for 1024 x 1024 samples over
+// Times of seabeds: seabeds [threads] prints the minimum of 25 runs, in milliseconds, for 1024 x 1024 samples over
 // 35 m with and without their normals, and for one of 65 x 65 on one thread, the size of a small scene.
 #include <insonify/all.hpp>
 #include <insonify/core/thread_pool.hpp>
@@ -14,15 +14,15 @@ namespace sb = insonify::seabed;
 namespace {
 
 template <class Fn>
-double least_ms(const Fn& work) {
-    double least = 1e9;
+double best_ms(const Fn& work) {
+    double best = 1e9;
     for (int i = 0; i < 25; ++i) {
         const auto start = std::chrono::steady_clock::now();
         work();
         const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-        least = (std::min)(least, taken.count());
+        best = (std::min)(best, taken.count());
     }
-    return least;
+    return best;
 }
 
 /// Ripples as a user's model: forwards to the library's.
@@ -39,9 +39,9 @@ int main(int argc, char** argv) {
     const sb::grid compact{.origin = {-3, -3}, .spacing = 6.0 / 64, .width = 65, .height = 65};
     std::printf("%-10s %10s %14s %16s\n", "seabed", "samples", "with normals", "65 x 65, serial");
     const auto time = [&](const char* name, const sb::any& seabed) {
-        std::printf("%-10s %10.2f %14.2f %16.3f\n", name, least_ms([&] { sb::sample(seabed, large, pool); }),
-                    least_ms([&] { sb::normals(sb::sample(seabed, large, pool), pool); }),
-                    least_ms([&] { sb::sample(seabed, compact); }));
+        std::printf("%-10s %10.2f %14.2f %16.3f\n", name, best_ms([&] { sb::sample(seabed, large, pool); }),
+                    best_ms([&] { sb::normals(sb::sample(seabed, large, pool), pool); }),
+                    best_ms([&] { sb::sample(seabed, compact); }));
     };
     time("flat", sb::flat{});
     time("ripples", sb::ripples{});

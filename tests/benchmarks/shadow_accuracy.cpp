@@ -52,8 +52,8 @@ constexpr const char* help =
     "  --distance d        of the light, metres; 0: infinitely far (0)\n"
     "  --bits n            sub-pixel bits, 4 to 16; 0: the policy's own (0)\n"
     "  --each              a line for each picture with a wrong pixel, too\n"
-    "  --threads n         (2)\n"
-    "wrong: dark that should be lit + lit that should be dark, where the pixel's centre lies in the triangle shown;\n"
+    "  --threads n         number of threads (2)\n"
+    "wrong: false shadows and light leaks, where the pixel's centre lies in the triangle shown;\n"
     "beside: pixels whose centre misses the triangle shown, and how many of those are wrong; not in the first\n"
     "share, but in the second.\n";
 
@@ -73,7 +73,7 @@ std::vector<double> numbers(const std::string& list) {
         char* end = nullptr;
         all.push_back(std::strtod(word.c_str(), &end));
         if (*end != '\0') {
-            std::fprintf(stderr, "not a number: %s\n", word.c_str());
+            std::fprintf(stderr, "'%s' is not a number\n", word.c_str());
             std::exit(2);
         }
     }
@@ -113,7 +113,7 @@ options parse(int argc, char** argv) {
         } else if (name == "--threads") {
             o.threads = static_cast<int>(numbers(value).at(0));
         } else {
-            std::fprintf(stderr, "unknown: %s\n%s", name.c_str(), help);
+            std::fprintf(stderr, "%s is not an option\n%s", name.c_str(), help);
             std::exit(2);
         }
     }

@@ -1,4 +1,4 @@
-// A fragment shader is given the varyings of the vertex shader.
+// A fragment shader takes the varyings of the vertex shader.
 // expect: a fragment shader takes.*varyings
 #include <insonify/core/image.hpp>
 #include <insonify/geometry/cube.hpp>
@@ -11,13 +11,13 @@ struct lit {
 };
 
 void draw_cube(in::image<float>& color, in::image<float>& depth) {
-    const auto place = [](const in::vertex& v) {
+    const auto vertex_shader = [](const in::vertex& v) {
         return in::placed_vertex<lit>{glm::vec4(v.position, 1), {v.normal.z}};
     };
 #if defined(INSONIFY_COMPILE_FAIL)
-    const auto shade = [](const in::fragment<float>& f) { return f.varyings; };
+    const auto fragment_shader = [](const in::fragment<float>& f) { return f.varyings; };
 #else
-    const auto shade = [](const in::fragment<lit>& f) { return f.varyings.light; };
+    const auto fragment_shader = [](const in::fragment<lit>& f) { return f.varyings.light; };
 #endif
-    in::draw(in::to_mesh(in::cube{}), place, shade, in::framebuffer<float>{color, depth});
+    in::draw(in::to_mesh(in::cube{}), vertex_shader, fragment_shader, in::framebuffer<float>{color, depth});
 }

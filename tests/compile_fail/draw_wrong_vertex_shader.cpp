@@ -8,10 +8,10 @@ namespace in = insonify;
 
 void draw_cube(in::image<float>& color, in::image<float>& depth) {
 #if defined(INSONIFY_COMPILE_FAIL)
-    const auto place = [](const in::vertex& v) { return v.position; };
+    const auto vertex_shader = [](const in::vertex& v) { return v.position; };
 #else
-    const auto place = [](const in::vertex& v) { return glm::vec4(v.position, 1); };
+    const auto vertex_shader = [](const in::vertex& v) { return glm::vec4(v.position, 1); };
 #endif
-    const auto shade = [](const in::fragment<in::no_varyings>&) { return 1.0f; };
-    in::draw(in::to_mesh(in::cube{}), place, shade, in::framebuffer<float>{color, depth});
+    const auto fragment_shader = [](const in::fragment<in::no_varyings>&) { return 1.0f; };
+    in::draw(in::to_mesh(in::cube{}), vertex_shader, fragment_shader, in::framebuffer<float>{color, depth});
 }

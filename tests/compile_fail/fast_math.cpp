@@ -1,4 +1,4 @@
-// -ffast-math lets compilers round as they like.
+// -ffast-math permits compilers to change the rounding of results.
 // expect: bit-identical on all platforms
 #if defined(INSONIFY_COMPILE_FAIL)
 #define __FAST_MATH__ 1

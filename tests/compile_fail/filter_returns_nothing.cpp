@@ -1,4 +1,4 @@
-// A function that changes the pixel that it is given and returns nothing is no filter.
+// A function that modifies its argument and returns nothing is not a filter.
 // expect: filter_for
 #include <insonify/filter/noise.hpp>
 #include <insonify/filter/pipe.hpp>

@@ -1,4 +1,4 @@
-// What a shadow policy builds has to test points.
+// The object that a shadow policy builds needs a test().
 // expect: a shadow policy has build.*which returns an object with
 #include <insonify/insonify.hpp>
 #include <insonify/sonar/overhead/render.hpp>

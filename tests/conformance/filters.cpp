@@ -1,5 +1,5 @@
-// Filters for filters.py to compare with other people's: reads lines of "what source argument result" and applies
-// them to netpbm files. PGM of 8 and 16 bits, PFM; colour only for gray.
+// Applies filters for filters.py, which compares them with scikit-image and Octave: reads lines of "what kind source
+// argument result" and applies them to netpbm files. PGM of 8 and 16 bits, PFM; colour only for gray.
 #include <insonify/filter/colormap.hpp>
 #include <insonify/filter/gray.hpp>
 #include <insonify/filter/histogram.hpp>

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Filters beside scikit-image's and Octave's: filters.py <conformance_filters> [folder of real pictures]
+"""Compares filters with scikit-image's and Octave's: filters.py <conformance_filters> [folder of real pictures]
 
 Exits with 77 where scikit-image is not installed; without Octave and its image package, its comparisons are skipped
 with a message.
@@ -56,8 +56,8 @@ def gray_of(path):
     return util.img_as_float(picture[..., 0] if picture.ndim == 3 else picture)
 
 
-def made_up():
-    """A picture of any contrast, skew and number of levels, sometimes with hardly any."""
+def synthetic():
+    """A picture of random contrast, skew and number of levels."""
     height, width = rng.integers(8, 160, 2)
     y, x = np.mgrid[0:height, 0:width]
     relief = np.sin(x / rng.uniform(2, 30)) + np.sin(y / rng.uniform(2, 30)) + rng.normal(0, rng.uniform(0.01, 1), (height, width))
@@ -112,7 +112,7 @@ with tempfile.TemporaryDirectory() as name:
     pairs = []
     for i in range(100):
         kind = ("8", "16", "float", "8")[i % 4]
-        make = patch if PICTURES and i // 4 % 2 == 0 else made_up
+        make = patch if PICTURES and i // 4 % 2 == 0 else synthetic
         source, reference = as_kind(make(), kind), as_kind(make(), kind)
         paths = [folder / f"{i}.source", folder / f"{i}.reference"]
         write(paths[0], source)
@@ -185,7 +185,7 @@ with tempfile.TemporaryDirectory() as name:
         octave = subprocess.run(["octave", "--no-gui", "--quiet", str(folder / "script.m")], stderr=subprocess.PIPE, text=True,
                                 errors="replace")
 
-        def made(file, kind, shape):
+        def octave_result(file, kind, shape):
             if not (folder / file).exists():
                 sys.exit("\n".join(failures + [f"Octave (status {octave.returncode}) wrote no {file}:", octave.stderr]))
             return np.fromfile(folder / file, kind).reshape(shape[::-1]).T
@@ -193,19 +193,19 @@ with tempfile.TemporaryDirectory() as name:
         worst = 0
         for i, kind, source, _, _, matched, *_ in pairs:
             step = 1 if kind != "float" else 1 / 255
-            difference = np.abs(read(matched) - made(f"m{i}", "f8", source.shape)).max() / step
+            difference = np.abs(read(matched) - octave_result(f"m{i}", "f8", source.shape)).max() / step
             worst = max(worst, difference)
             check(difference <= (0.505 if kind != "float" else 1e-4), f"pair {i}, {kind}: {difference} levels from Octave's match")
             if kind == "8":
-                check((made(f"h{i}", "f8", (256, 1))[:, 0] == np.bincount(source.ravel(), minlength=256)).all(), f"pair {i}: imhist")
+                check((octave_result(f"h{i}", "f8", (256, 1))[:, 0] == np.bincount(source.ravel(), minlength=256)).all(), f"pair {i}: imhist")
         print(f"At most {worst:.3f} levels from the same rule by Octave's interp1")
-        check((made("g", "u1", (50, 60)) == read(gray["octave"])).mean() > 0.999, "gray: Octave's rgb2gray")
-        check(np.abs(made("g", "u1", (50, 60)).astype(int) - read(gray["octave"])).max() <= 1, "gray: a level from Octave's")
+        check((octave_result("g", "u1", (50, 60)) == read(gray["octave"])).mean() > 0.999, "gray: Octave's rgb2gray")
+        check(np.abs(octave_result("g", "u1", (50, 60)).astype(int) - read(gray["octave"])).max() <= 1, "gray: a level from Octave's")
         for by in ("copper", "hot"):
-            difference = np.abs(read(tables[by])[0] - made(by, "f8", (256, 3))).max()
+            difference = np.abs(read(tables[by])[0] - octave_result(by, "f8", (256, 3))).max()
             check(difference <= 0.5 + 1e-9, f"{by}: {difference} levels from Octave's")
         for what in noises:
-            ours, theirs = read(noisy[what]).astype(float), made(what, "u1", flat.shape).astype(float)
+            ours, theirs = read(noisy[what]).astype(float), octave_result(what, "u1", flat.shape).astype(float)
             check(abs(ours.mean() - theirs.mean()) < 5 * theirs.std() / 1000 * 2 ** 0.5, f"{what}: mean {ours.mean()}, Octave {theirs.mean()}")
             fourth = np.mean((theirs - theirs.mean()) ** 4)
             error = (fourth - theirs.var() ** 2) ** 0.5 / 1000

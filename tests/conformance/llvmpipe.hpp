@@ -39,7 +39,7 @@ class llvmpipe {
         };
         std::vector<corner> data;
         for (std::size_t i = 0; i < corners.size(); ++i) {
-            // Rows of an off-screen target are stored in the order of y: turned over, memory has the top row first.
+            // Rows of an off-screen target are stored in the order of y; flipped, memory has the top row first.
             const glm::vec4& p = corners[i];
             data.push_back({{p.x, -p.y, 2 * p.z - p.w, p.w}, static_cast<std::uint32_t>(i / 3 + 1)});
         }
@@ -97,7 +97,7 @@ class llvmpipe {
         return result;
     }
 
-    /// Whether any call so far was refused.
+    /// Whether any OpenGL call has failed.
     bool failed() const { return failed_; }
 
   private:

@@ -136,7 +136,7 @@ void filters() {
     show("copper", in::colormap::copper);
 }
 
-/// A heap of triangles of all sizes, some of them far outside, behind the camera or not finite.
+/// Random triangles of all sizes, some of them far outside, behind the camera or not finite.
 void triangles() {
     in::random_sequence random(9);
     in::mesh m;
@@ -149,13 +149,13 @@ void triangles() {
         m.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
     }
     m.positions[77].y = std::numeric_limits<float>::quiet_NaN();
-    const auto place = [](const in::vertex& v) {
+    const auto vertex_shader = [](const in::vertex& v) {
         return in::placed_vertex<glm::vec3>{{v.position.x, v.position.y, 0.05f, v.position.z}, v.position};
     };
     for (const int bits : {8, 16}) {
         in::image<glm::vec3> color(160, 120);
         in::image<float> depth(160, 120);
-        in::draw(m, place, [](const auto& f) { return f.varyings; }, in::framebuffer<glm::vec3>{color, depth},
+        in::draw(m, vertex_shader, [](const auto& f) { return f.varyings; }, in::framebuffer<glm::vec3>{color, depth},
                  {.keep = in::keep_depth::larger, .load = in::depth_load::clear, .subpixel_bits = bits});
         hash h;
         h.add(color);

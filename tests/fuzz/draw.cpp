@@ -86,9 +86,9 @@ drawing read(byte_reader& bytes) {
     d.in_pixels = bytes.below(2) == 0;
 
     const int triangles = bytes.below(8), vertices = bytes.below(12);
-    const int named = vertices + (bytes.below(16) == 15 ? 1 : 0);  // one that isn't there is to be refused
-    for (int i = 0; i < triangles && named > 0; ++i) {
-        const int a = bytes.below(named), b = bytes.below(named), c = bytes.below(named);
+    const int indices = vertices + (bytes.below(16) == 15 ? 1 : 0);  // an index without a vertex must be refused
+    for (int i = 0; i < triangles && indices > 0; ++i) {
+        const int a = bytes.below(indices), b = bytes.below(indices), c = bytes.below(indices);
         d.mesh.triangles.emplace_back(a, b, c);
     }
     for (int i = 0; i < vertices; ++i) d.clip.push_back(read_vertex(bytes, d));
@@ -119,7 +119,7 @@ bool in_depth_range(const glm::vec4& p) {
     return is_finite(p) && p.w >= 1e-30f && p.w <= 1e38f && 0 <= p.z && p.z <= p.w;
 }
 
-/// The depths that a triangle's pixels may have: between those of its corners, where none of them is cut off.
+/// Bounds of the depth of a triangle's pixels: those of its corners, if none of them is clipped.
 struct depth_range {
     float lowest = 0, highest = 1;
 
@@ -143,7 +143,7 @@ struct picture {
     in::draw_stats stats;
 };
 
-/// Makes its calls in reverse order.
+/// Runs its calls in reverse order.
 struct backward_executor {
     void bulk(std::size_t count, auto&& fn) const {
         while (count > 0) fn(--count);
@@ -177,7 +177,7 @@ void check_depth(const drawing& d, const picture& p) {
             demand(d, now == before, "a pixel that isn't shaded keeps its depth");
         else
             demand(d, d.options.keep == in::keep_depth::smaller ? now < before : now > before,
-                   "what is shown is in front");
+                   "the visible surface is in front");
     }
 }
 
@@ -190,22 +190,23 @@ void check_stats(const drawing& d, const in::draw_stats& s) {
     demand(d, s.not_finite == broken, "triangles that are not finite are counted as such");
 }
 
-/// No option but those that say so changes a bit, and no executor does.
+/// Tile size, instruction set and executor change no bit.
 void check_same_bytes(const drawing& d, const picture& p) {
     in::draw_options<> options = d.options;
     options.level = in::isa::scalar;
     options.tile = options.tile == 16 ? 32 : 16;
     const picture other = drawn(d, options, backward_executor{});
-    demand(d, fuzzing::same_bytes(p.depth, other.depth), "every way to draw gives the same depth");
-    demand(d, fuzzing::same_bytes(p.color, other.color), "every way to draw gives the same colors");
-    demand(d, p.stats == other.stats, "every way to draw counts the same");
+    demand(d, fuzzing::same_bytes(p.depth, other.depth), "tiles, instruction set and executor do not change the depth");
+    demand(d, fuzzing::same_bytes(p.color, other.color),
+           "tiles, instruction set and executor do not change the colors");
+    demand(d, p.stats == other.stats, "tiles, instruction set and executor do not change the statistics");
 
     in::image<float> depth(d.width, d.height, d.background);
     in::draw(d.mesh, d, in::depth_target{depth}, options);
-    demand(d, fuzzing::same_bytes(p.depth, depth), "depth alone is the depth of a shaded draw");
+    demand(d, fuzzing::same_bytes(p.depth, depth), "a depth-only draw gives the depth of a shaded draw");
 }
 
-/// Where the vertex lies, in pixels; nothing if it lies where coverage isn't promised to be exact.
+/// The position of a vertex in pixels; none where coverage is not guaranteed to be exact.
 std::optional<glm::dvec2> exact_position(const drawing& d, const glm::vec4& p) {
     if (!in_depth_range(p)) return std::nullopt;
     const glm::dvec4 q(p);  // w is a power of two and the picture small: nothing is rounded below
@@ -229,7 +230,7 @@ void check_coverage(const drawing& d) {
         const in::mesh alone{d.mesh.positions, {}, {t}}, turned{d.mesh.positions, {}, {{t.x, t.z, t.y}}};
         in::draw_options<> one_side = d.options, all = d.options;
         one_side.cull = in::cull_mode::back;
-        one_side.tile = 8;  // changes nothing but how long it takes
+        one_side.tile = 8;  // faster; changes no pixel
         all.cull = in::cull_mode::none;
         const auto whole = hits(alone, d.width, d.height, d, all);
         const auto front = hits(alone, d.width, d.height, d, one_side);

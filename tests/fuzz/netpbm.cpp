@@ -1,4 +1,4 @@
-// The netpbm reader on any bytes, once for each pixel type: an image that survives being written, or its own error.
+// The netpbm reader on any bytes, once for each pixel type: an image that reads back as written, or its own error.
 #include <insonify/io/netpbm.hpp>
 
 #include <optional>

@@ -33,8 +33,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         in::side_scan_rig<in::across_track::slant_range> rig{
             .altitude = 4, .ping_spacing = 0.2f, .pings = 12, .first_range = 4, .range = 8, .bins = 12};
         rig.position = {-4, -1};
-        const auto heard = in::render(scene, rig);
-        check(heard.image, heard.labels);
+        const auto recording = in::render(scene, rig);
+        check(recording.image, recording.labels);
     } catch (const in::io_error&) {  // anything else that is thrown ends the program
     } catch (const in::invalid_input&) {
     }

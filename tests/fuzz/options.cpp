@@ -37,7 +37,7 @@ void run(std::string_view text) {
     while (!line.empty()) {
         const std::size_t end = (std::min)(line.find('\n'), line.size());
         const std::string word(line.substr(0, end));
-        // Files of the machine are no input of this test.
+        // This test does not read files of the machine.
         if (word.find('/') != std::string::npos || word.find("--config") == 0) return;
         words.push_back(word.substr(0, word.find('\0')));
         line.remove_prefix((std::min)(end + 1, line.size()));

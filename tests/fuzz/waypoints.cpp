@@ -1,4 +1,4 @@
-// Way-points on any text: places that a vehicle reaches or passes, or their own error.
+// Waypoints from any text: finite positions that a vehicle reaches or passes, or the reader's own error.
 #include "../../examples/sidescan_survey/vehicle.hpp"
 #include "fuzz.hpp"
 
@@ -7,10 +7,10 @@ using fuzzing::demand;
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {
-        const auto points = survey::parse_waypoints({reinterpret_cast<const char*>(data), size}, "way-points");
+        const auto points = survey::parse_waypoints({reinterpret_cast<const char*>(data), size}, "waypoints");
         demand(points.size() >= 2 && points.size() <= size, "a point takes characters");
         for (const glm::dvec2& p : points)
-            demand(in::numeric::is_finite(p.x) && in::numeric::is_finite(p.y), "places are finite");
+            demand(in::numeric::is_finite(p.x) && in::numeric::is_finite(p.y), "waypoints are finite");
         survey::vehicle boat({}, points);
         survey::fix f{};
         for (int i = 0; i < 1000 && boat.ping(f); ++i)

@@ -47,7 +47,7 @@ def differs(expected, output):
 class Guide:
     def __init__(self, project, folder, stand_ins):
         self.project, self.guide, self.folder, self.stand_ins = project, project / "docs/guide", folder, stand_ins
-        self.faults, self.left_out, self.blocks = [], [], 0
+        self.faults, self.skipped, self.blocks = [], [], 0
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         (folder / "insonify").symlink_to(project, target_is_directory=True)
@@ -85,7 +85,7 @@ class Guide:
                 elif language == "sh":
                     output = None if flag == "skip" else self.run(code)
                     if flag != "skip" and output is None:
-                        self.left_out.append(where)
+                        self.skipped.append(where)
                     self.blocks += output is not None
                 elif language == "text":
                     missing = None if output is None else differs(code, output)
@@ -143,8 +143,8 @@ def main():
             guide.follow(page)
     for page in given.commands:
         guide.run_commands(page)
-    for where in guide.left_out:
-        print(f"{where}: left out, the generator or GoogleTest is missing")
+    for where in guide.skipped:
+        print(f"{where}: skipped, the generator or GoogleTest is missing")
     print("\n".join(guide.faults + [f"{guide.blocks} blocks, {len(guide.faults)} faults"]))
     sys.exit(1 if guide.faults else 0)
 

@@ -1,4 +1,4 @@
-// One program out of translation units whose flags differ: separate symbols, the same bytes.
+// Links translation units with different flags into one program: separate symbols, the same bytes.
 #include <set>
 #include <vector>
 
@@ -17,7 +17,7 @@ TEST_CASE("Translation units with different flags link into one program, share n
     }
     CHECK(tags.size() == results.size());
 
-    // The cube is in the picture, and doesn't fill it.
-    CHECK(results[0].refused > 97 * 61 / 2);
-    CHECK(results[0].refused < 97 * 61);
+    // The cube covers a part of the picture.
+    CHECK(results[0].uncovered > 97 * 61 / 2);
+    CHECK(results[0].uncovered < 97 * 61);
 }

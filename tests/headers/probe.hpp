@@ -5,9 +5,9 @@
 #include <string>
 
 struct probe_result {
-    std::string abi;        // the tag that keeps its symbols apart
-    std::uint64_t bytes;    // a checksum over what it drew
-    std::uint64_t refused;  // pixels it did not draw
+    std::string abi;          // the tag that keeps its symbols apart
+    std::uint64_t bytes;      // a checksum of the picture
+    std::uint64_t uncovered;  // pixels without a triangle
 };
 
 probe_result probe_scalar();

@@ -3,7 +3,7 @@
 check.py index.html [include folder, compiler...]
 
 With a compiler, the programs that the page shows have to compile, in the compiled form, which names most headers. Prints the
-time of a frame for each kind of picture. Exit 0: fine; 1: a fault; 77: no Chromium here.
+time of a frame for each kind of picture. Exit codes: 0 without faults, 1 with faults, 77 without Chromium.
 """
 
 import concurrent.futures
@@ -75,7 +75,7 @@ STB = "int stbi_write_png_to_func(void (*)(void*, void*, int), void*, int, int, 
 
 
 def compiler_faults(programs, include, compiler):
-    """What a compiler says to the programs, in the compiled form: a unit for each set of includes."""
+    """Compiles the programs in the compiled form, one unit for each set of includes, and yields the errors."""
     if len(programs) < 50:
         yield f"the page showed {len(programs)} programs"
     units = {}
@@ -100,7 +100,7 @@ def compiler_faults(programs, include, compiler):
 def main():
     chromium = chromium_program()
     if chromium is None:
-        print("Without Chromium: the playground is not opened.")
+        print("skipped: Chromium not found")
         sys.exit(77)
     page = pathlib.Path(sys.argv[1]).resolve()
     size = page.stat().st_size

@@ -14,7 +14,7 @@ script = project / "tools/completion.bash"
 
 
 def completed(*words, program="generate_dataset", function="_insonify_generate"):
-    """What bash offers behind these words."""
+    """The words that bash offers after these."""
     ask = (f"source {script}; COMP_WORDS=({program} {' '.join(map(repr, words))}); COMP_CWORD={len(words)}; "
            f"{function}; printf '%s\\n' \"${{COMPREPLY[@]}}\"")
     return subprocess.run(["bash", "-c", ask], check=True, capture_output=True, text=True).stdout.split()
@@ -28,7 +28,7 @@ def options_in(path):
 
 def differences(program, options, offered):
     return ([f"{program}: {name} is not offered" for name in sorted(options - offered)] +
-            [f"{program}: {name} is no option" for name in sorted(offered - options)])
+            [f"{program}: {name} is not an option" for name in sorted(offered - options)])
 
 
 options = options_in("examples/generate_dataset/options.cpp")

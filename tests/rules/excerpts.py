@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that what the pages quote from the project is what stands there: excerpts.py <project>
+"""Checks that quotes of the project in its pages are verbatim: excerpts.py <project>
 
 A fence that names a file, as in ```cpp include/insonify/core/rect.hpp, holds parts of it: each run of lines without a blank
 line occurs word for word in the file. A line `// ...` stands for what is left out. A fence that names a program of examples/

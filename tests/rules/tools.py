@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every tool explains itself at once, and refuses a wrong option by name before it installs or compiles: tools.py <project>
+"""Every tool prints its usage, and names a wrong option before it installs or compiles anything: tools.py <project>
 
 Compilers, package managers and the like are replaced by programs that leave a mark.
 """

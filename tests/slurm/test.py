@@ -215,7 +215,7 @@ class Slurm(unittest.TestCase):
 
 
 class Submission(unittest.TestCase):
-    """What is refused before anything is submitted, and what is submitted, with an sbatch that writes it down."""
+    """Refusals and submitted commands, with a fake sbatch that records its arguments."""
 
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()

@@ -9,7 +9,7 @@ import gdb
 class Picture:
     """Prints the size, and the pixels of small images row by row."""
 
-    MOST = 64
+    MAX_PIXELS = 64
 
     def __init__(self, value, is_view):
         self.value, self.is_view = value, is_view
@@ -20,7 +20,7 @@ class Picture:
         return f"{kind} of {self.width} x {self.height} {self.value.type.strip_typedefs().template_argument(0)}"
 
     def children(self):
-        if self.width * self.height > self.MOST:
+        if self.width * self.height > self.MAX_PIXELS:
             return
         if self.is_view:
             first, stride = self.value["data_"], int(self.value["stride_"])

@@ -37,7 +37,7 @@ class Markdown:
 
 
 def malformed(path):
-    """What is wrong with an XML file, None if nothing is."""
+    """The parse error of an XML file; None if it is well-formed."""
     try:
         xml.etree.ElementTree.parse(path)
     except xml.etree.ElementTree.ParseError as error:
@@ -76,7 +76,7 @@ def main():
                 pass  # Doxygen links to its list of private nested classes without writing it
             elif parts.fragment and to.suffix in (".html", ".md"):
                 if urllib.parse.unquote(parts.fragment) not in page(to).ids:
-                    dead.append(f"{path}: {link} (no such place)")
+                    dead.append(f"{path}: {link} (no such heading or id)")
     print("\n".join(dead + [f"{links} links in {len(files)} files, {len(dead)} dead"]))
     sys.exit(1 if dead else 0)
 

@@ -76,7 +76,7 @@ def page(w, h, body):
 
 def stacked(upper, lower):
     """Two plots of one page, the second below the first."""
-    down = upper.size[1] - 24  # where the first one's label would be
+    down = upper.size[1] - 24  # the upper plot has no label below
     return page(upper.size[0], down + lower.size[1],
                 upper.body + [f'<g transform="translate(0 {down})">'] + lower.body + ["</g>"])
 
@@ -108,7 +108,7 @@ def triangle():
 
 
 def shadow():
-    """A bottom under parallel light; below it u, where each point's ray meets z = 0, and the largest of those before."""
+    """A bottom under parallel light; below it u, where each point's ray meets z = 0, and the running maximum of u."""
     grazing, across = math.radians(17), 9.0
     cot = 1 / math.tan(grazing)
 
@@ -120,7 +120,7 @@ def shadow():
     met = [feet[0]]
     for foot in feet[1:]:
         met.append(max(met[-1], foot))
-    dark = [foot < most - 1e-9 for foot, most in zip(feet, met)]
+    dark = [foot < largest - 1e-9 for foot, largest in zip(feet, met)]
     runs, start = [], None
     for i, is_dark in enumerate(dark + [False]):
         if is_dark and start is None:

@@ -1,4 +1,4 @@
-// Tests of a shadow finder with Catch2: a scene drawn in the test is the fixture, a golden picture holds the drawing.
+// Tests of a shadow finder with Catch2: the fixture is a scene rendered in the test; a golden picture pins its pixels.
 #if __has_include(<catch2/catch_test_macros.hpp>)
 #include <catch2/catch_test_macros.hpp>
 #else
@@ -21,7 +21,7 @@ TEST_CASE("The finder measures the shadow of a cube") {
     CHECK(std::abs(longest_dark_run(frame.image.row(row)) - cube.shadow_box.width()) <= 1);
 }
 
-TEST_CASE("The fixture looks as it always did") {
+TEST_CASE("The fixture matches its golden picture") {
     const in::golden_pictures golden{.folder = GOLDEN_FOLDER, .failures = "."};
     CHECK_THAT(eight_bit_picture(), in::matches(golden.is("cube_on_sand", {.value = 1})));
 }

@@ -1,5 +1,5 @@
-// Tests of a shadow finder with GoogleTest: a scene drawn in the test is the fixture, a golden picture holds the
-// drawing.
+// Tests of a shadow finder with GoogleTest: the fixture is a scene rendered in the test; a golden picture pins its
+// pixels.
 #include <insonify/insonify.hpp>
 #include <insonify/testing.hpp>
 
@@ -15,7 +15,7 @@ TEST(ShadowFinder, MeasuresTheShadowOfACube) {
     EXPECT_NEAR(longest_dark_run(frame.image.row(row)), cube.shadow_box.width(), 1);
 }
 
-TEST(ShadowFinder, TheFixtureLooksAsItAlwaysDid) {
+TEST(ShadowFinder, TheFixtureMatchesItsGoldenPicture) {
     const in::golden_pictures golden{.folder = GOLDEN_FOLDER, .failures = "."};
     EXPECT_THAT(eight_bit_picture(), golden.is("cube_on_sand", {.value = 1}));
 }

@@ -33,7 +33,7 @@ class embree_renderer::tracer {
           tree_(tree),
           pool_(threads),
           device_(rtcNewDevice(("threads=" + std::to_string(threads)).c_str())) {
-        if (device_ == nullptr) throw std::runtime_error("Embree gives no device");
+        if (device_ == nullptr) throw std::runtime_error("Embree provides no device");
         if (task.pixels % tile != 0) throw std::invalid_argument("pixels must be a multiple of 32");
         scene_ = rtcNewScene(device_);
         if (tree == embree_tree::exact) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
@@ -43,7 +43,7 @@ class embree_renderer::tracer {
         attach(is_grid() ? grid() : triangles(task.seabed));
         attach(triangles(task.target));
         rtcCommitScene(scene_);
-        if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) throw std::runtime_error("Embree refuses the scene");
+        if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) throw std::runtime_error("Embree rejects the scene");
     }
     ~tracer() {
         rtcReleaseScene(scene_);
@@ -102,7 +102,7 @@ class embree_renderer::tracer {
         return geometry;
     }
 
-    /// Tells Embree that the seabed's vertices are new, and has it make the tree again.
+    /// Marks the seabed's vertices as modified, so that the commit rebuilds the tree.
     void rebuild() {
         const RTCGeometry seabed = rtcGetGeometry(scene_, 0);
         rtcUpdateGeometryBuffer(seabed, RTC_BUFFER_TYPE_VERTEX, 0);

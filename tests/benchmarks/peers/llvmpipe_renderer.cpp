@@ -112,7 +112,7 @@ class llvmpipe_renderer::pipeline {
 
         glBindFramebuffer(GL_FRAMEBUFFER, frame_);
         glViewport(0, 0, task_.pixels, task_.pixels);
-        glFrontFace(GL_CW);  // turned over, so that memory has the top row first
+        glFrontFace(GL_CW);  // flipped vertically, so that memory has the top row first
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         glUseProgram(draw_);
         draw(target_);
@@ -133,7 +133,7 @@ class llvmpipe_renderer::pipeline {
     }
 
     static void check() {
-        if (glGetError() != GL_NO_ERROR) throw std::runtime_error("llvmpipe refuses a call");
+        if (glGetError() != GL_NO_ERROR) throw std::runtime_error("llvmpipe reports an OpenGL error");
     }
 
     static void upload(object& o, const workload::surface& s) {
@@ -208,7 +208,7 @@ class llvmpipe_renderer::pipeline {
     void make_programs() {
         cast_ = testing_mesa::program_of(cast_vertex, cast_fragment);
         draw_ = testing_mesa::program_of(draw_vertex, draw_fragment);
-        if (cast_ == 0 || draw_ == 0) throw std::runtime_error("llvmpipe refuses a shader");
+        if (cast_ == 0 || draw_ == 0) throw std::runtime_error("llvmpipe does not compile a shader");
 
         // The light looks along -to_light; its picture's right is level, so that the map's rows are the ground's.
         const glm::dvec3 back(task_.to_light);

@@ -1,5 +1,5 @@
-// The reference workload W, and others, drawn by the library and by its peers, frame by frame in turn. See --help and
-// docs/speed.md.
+// Draws the reference workload W, and others, with the library and its peers, interleaved frame by frame. See --help
+// and docs/speed.md.
 #include <insonify/accuracy/metrics.hpp>
 #include <insonify/core/random.hpp>
 #include <insonify/io/netpbm.hpp>
@@ -72,10 +72,10 @@ options parse(int argc, char** argv) {
            "embree_mesh_kept,embree_mesh_rebuilt,embree_grid_kept,embree_grid_rebuilt,llvmpipe; embree is all of its "
            "four (all)")
         ->delimiter(',');
-    app.add_option("--threads", o.threads, "Of each renderer (2)")->check(CLI::Range(1, 256));
-    app.add_option("--frames", o.frames, "Measured, after two to warm up (9)")->check(CLI::Range(1, 10000));
+    app.add_option("--threads", o.threads, "Threads of each renderer (2)")->check(CLI::Range(1, 256));
+    app.add_option("--frames", o.frames, "Measured frames, after two to warm up (9)")->check(CLI::Range(1, 10000));
     app.add_flag("--processor-time", o.processor_time,
-                 "Measures processor time, of all threads together: for machines that do other things meanwhile");
+                 "Measures the processor time of all threads together, for machines with other load");
     app.add_option("--json", o.json, "File for the figures");
     app.add_option("--svg", o.svg, "File for a bar chart");
     app.add_option("--dump", o.dump, "Folder for the pictures, as PGM");
@@ -84,7 +84,7 @@ options parse(int argc, char** argv) {
         for (const std::string& name : o.only)
             if (name != "embree" &&
                 std::find(every_renderer.begin(), every_renderer.end(), name) == every_renderer.end())
-                throw CLI::ValidationError("--only", "'" + name + "' is no renderer");
+                throw CLI::ValidationError("--only", "'" + name + "' is not a renderer");
     } catch (const CLI::ParseError& error) {
         std::exit(app.exit(error) == 0 ? 0 : 2);
     }
@@ -126,7 +126,7 @@ std::vector<runner> make_runners(const workload::scene& scene, const options& o)
             runners.push_back(
                 {name, [renderer](std::span<std::uint8_t> out) { renderer->render(out); }, bytes(pixels * pixels)});
         } catch (const std::exception& reason) {
-            std::fprintf(stderr, "%s is left out: %s\n", name.c_str(), reason.what());
+            std::fprintf(stderr, "%s is skipped: %s\n", name.c_str(), reason.what());
         }
     };
     [[maybe_unused]] const auto add_build = [&](const std::string& name, const auto& build) {
@@ -170,7 +170,7 @@ std::vector<runner> make_runners(const workload::scene& scene, const options& o)
     return runners;
 }
 
-/// The picture that a ray for each pixel and one for its shadow make; none without Embree.
+/// The picture by one primary and one shadow ray per pixel; empty without Embree.
 bytes exact_picture([[maybe_unused]] const workload::scene& scene, [[maybe_unused]] int threads) {
 #if defined(PEERS_EMBREE)
     const auto pixels = static_cast<std::size_t>(scene.size.pixels);
@@ -223,18 +223,18 @@ void measure(const workload::scene& scene, const options& o, std::vector<report:
 int main(int argc, char** argv) try {
     const options o = parse(argc, argv);
 #if !defined(PEERS_EMBREE)
-    std::fprintf(stderr, "embree is left out, and with it the exact picture: it was not there when this was built\n");
+    std::fprintf(stderr, "embree is skipped, and with it the exact picture: built without Embree\n");
 #endif
 #if !defined(PEERS_LLVMPIPE)
-    std::fprintf(stderr, "llvmpipe is left out: EGL and OpenGL ES were not there when this was built\n");
+    std::fprintf(stderr, "llvmpipe is skipped: built without EGL and OpenGL ES\n");
 #endif
     std::vector<report::row> rows;
-    const auto is_asked = [](const std::vector<std::string>& list, const std::string& name) {
+    const auto contains = [](const std::vector<std::string>& list, const std::string& name) {
         return std::find(list.begin(), list.end(), name) != list.end();
     };
     for (const workload::setting& what : workload::settings)
         for (const workload::size& size : workload::sizes)
-            if (is_asked(o.workloads, what.name) && is_asked(o.sizes, std::string(1, size.name)))
+            if (contains(o.workloads, what.name) && contains(o.sizes, std::string(1, size.name)))
                 measure(workload::scene(size, what), o, rows);
     if (rows.empty()) return 1;
     std::printf("threads %d; frames %d of each renderer, in turn; %s\n", o.threads, o.frames,

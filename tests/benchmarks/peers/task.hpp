@@ -1,5 +1,5 @@
-// Input of every renderer: plain data without the library's types, because peers are compiled with the
-// flags that suit them best, and the library's types differ with flags.
+// Input of every renderer: plain data without the library's types, because peers are compiled with the flags that suit
+// them best, and the library's types differ with flags.
 #pragma once
 
 #include <cstdint>

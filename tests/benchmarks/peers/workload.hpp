@@ -80,19 +80,18 @@ inline in::mesh rocky(int cells) {
 }
 
 /// A target that lies at the origin, turned.
-inline in::mesh lying(const in::mesh& m, double height) {
+inline in::mesh placed(const in::mesh& m, double height) {
     return in::transformed(
         m, in::to_world({.position = {0, 0, height}, .yaw = static_cast<float>(in::numeric::to_radians(target_yaw))}));
 }
 inline in::mesh cylinder(int) {
-    return lying(in::to_mesh(in::cylinder{.radius = 0.5f, .length = 2, .segments = 64}), 0.5);
+    return placed(in::to_mesh(in::cylinder{.radius = 0.5f, .length = 2, .segments = 64}), 0.5);
 }
 inline in::mesh thin_cylinder(int) {
-    return lying(in::to_mesh(in::cylinder{.radius = 0.1f, .length = 0.8f, .segments = 64}), 0.1);
+    return placed(in::to_mesh(in::cylinder{.radius = 0.1f, .length = 0.8f, .segments = 64}), 0.1);
 }
 
-/// Like a scan of a round object: twice as many triangles as the seabed has, most of them smaller than a
-/// pixel.
+/// Like a scan of a round object: twice as many triangles as the seabed has, most of them smaller than a pixel.
 inline in::mesh scanned(int cells) {
     in::mesh m;
     const auto steps = static_cast<std::uint32_t>(in::numeric::square_root(2.0) * cells), side = steps + 1;
@@ -110,7 +109,7 @@ inline in::mesh scanned(int cells) {
             m.triangles.emplace_back(corner, opposite, corner + 1);
         }
     m.normals = in::smooth_normals(m);
-    return lying(m, 0.5);
+    return placed(m, 0.5);
 }
 
 /// A seabed and a target, and the camera's altitude.
@@ -138,7 +137,7 @@ struct scene {
         to_light = {-cos_azimuth * cos_elevation, -sin_azimuth * cos_elevation, sin_elevation};
     }
 
-    /// The same as plain data, which stays the scene's.
+    /// The same as plain data, which refers to the scene.
     workload::task task() const {
         const auto plain = [](const in::mesh& m) { return surface{m.positions, m.normals, m.triangles}; };
         const double altitude = setting.altitude;

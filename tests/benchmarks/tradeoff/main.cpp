@@ -1,4 +1,4 @@
-// Every knob of the trade of speed for accuracy, measured in one run. See --help and docs/tradeoff.md.
+// Measures each setting that trades accuracy for speed, in one run. See --help and docs/tradeoff.md.
 #include <insonify/all.hpp>
 #include <insonify/core/thread_pool.hpp>
 
@@ -41,11 +41,12 @@ struct options {
 
 options parse(int argc, char** argv) {
     options o;
-    CLI::App app("Measures every knob of the trade of speed for accuracy and writes tradeoff.md and its charts.",
+    CLI::App app("Measures each setting that trades accuracy for speed, and writes tradeoff.md and its charts.",
                  "tradeoff");
-    app.add_option("--pixels", o.pixels, "Along the sides of the pictures (256)")->check(CLI::Range(64, 2048));
-    app.add_option("--runs", o.runs, "Of everything, in turn; the least time counts (3)")->check(CLI::Range(1, 1000));
-    app.add_option("--out", o.out, "Folder (docs)");
+    app.add_option("--pixels", o.pixels, "Pixels a side of the pictures (256)")->check(CLI::Range(64, 2048));
+    app.add_option("--runs", o.runs, "Runs of each measurement, interleaved; the minimum time counts (3)")
+        ->check(CLI::Range(1, 1000));
+    app.add_option("--out", o.out, "Folder of the output (docs)");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -161,14 +162,14 @@ void measure_pictures(const options& o, report::contents& into) {
     report::mark_front(into.configurations);
 }
 
-/// A bottom without relief, with a lying cylinder and a ball.
+/// A bottom without relief, with a lying cylinder and a sphere.
 template <class Model>
 in::scene targets(const Model& modelled) {
     in::scene scene;
     scene.seabed = in::seabed::flat{.surface = {.rms = 0}};
     const in::pose lying{.position = {-0.6, 0.3, 0.15}, .yaw = 1.2f}, resting{.position = {0.5, -0.4, 0.2}};
     scene.add(modelled(in::cylinder{.radius = 0.15f, .length = 0.9f}, lying), lying, "cylinder");
-    scene.add(modelled(in::sphere{.radius = 0.2f}, resting), resting, "ball");
+    scene.add(modelled(in::sphere{.radius = 0.2f}, resting), resting, "sphere");
     return scene;
 }
 
@@ -239,7 +240,7 @@ void measure_reach(const options& o, report::contents& into) {
         });
 }
 
-/// Error of exact shadows from drawing the seabed as a mesh of cells: the rows of `exact` once more, as a knob.
+/// Lists the rows of `exact` as a knob: the error of exact shadows that comes from meshing the seabed in cells.
 void list_cells(report::contents& into) {
     for (const report::configuration& w : into.configurations)
         if (w.policy == "exact" && w.name.empty())
@@ -323,16 +324,16 @@ void measure_depth(const options& o, report::contents& into) {
     const in::seabed::grid grid{.spacing = 0.01, .width = o.pixels, .height = o.pixels};
     const in::mesh bottom = in::seabed::tessellate(in::seabed::sample(seabeds[2].second, grid));
     const float scale = 2 / (0.01f * static_cast<float>(o.pixels));
-    const auto place = [=](const in::vertex& v) {
+    const auto vertex_shader = [=](const in::vertex& v) {
         return glm::vec4(v.position.x * scale - 1, v.position.y * scale - 1, 0.5f + 0.5f * v.position.z, 1.0f);
     };
     const auto draw = [&](bool quick) {
         in::image<float> depth(o.pixels, o.pixels, 0.0f);
         if (quick)
-            in::draw(bottom, place, in::depth_target{depth},
+            in::draw(bottom, vertex_shader, in::depth_target{depth},
                      in::draw_options<in::depth_precision::quick>{.keep = in::keep_depth::larger});
         else
-            in::draw(bottom, place, in::depth_target{depth}, {.keep = in::keep_depth::larger});
+            in::draw(bottom, vertex_shader, in::depth_target{depth}, {.keep = in::keep_depth::larger});
         return depth;
     };
     const auto exact = draw(false);

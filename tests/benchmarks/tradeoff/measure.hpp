@@ -22,7 +22,7 @@ inline double busy_ms() {
 }
 
 struct figures {
-    double ms = 1e30;  ///< the least of all runs
+    double ms = 1e30;  ///< minimum of all runs
     double mebibytes = 0;
 
     /// Measures one more run.
@@ -36,7 +36,7 @@ struct figures {
     }
 };
 
-/// Measures the settings of a knob in turn, `runs` times. `error(i, result)` describes the error of setting i.
+/// Measures the settings of a knob `runs` times, interleaved. `error(i, result)` describes the error of setting i.
 template <class Make, class Error>
 void measure_knob(int runs, report::contents& into, report::knob k, const std::vector<std::string>& settings,
                   const Make& make, const Error& error) {

@@ -35,7 +35,7 @@ struct lit_scene {
 
 /// A policy on a mesh, under both lights.
 struct trial {
-    report::mesh_way way;
+    report::mesh_configuration configuration;
     std::function<in::frame<>(const lit_scene&)> draw;
     cost::figures under[2]{};
 
@@ -48,11 +48,11 @@ struct trial {
             const auto dark = in::map_pixels(drawn.labels.shadow, [](std::uint16_t by) {
                 return static_cast<std::uint8_t>(by != in::labels::is_lit);
             });
-            way.wrong += 0.5e6 * found.share_with_beside();
-            way.edge += 0.5 * in::accuracy::compare_masks(dark, lights[i].dark).mean_boundary_displacement();
+            configuration.wrong += 0.5e6 * found.share_with_beside();
+            configuration.edge += 0.5 * in::accuracy::compare_masks(dark, lights[i].dark).mean_boundary_displacement();
         }
-        way.ms = 0.5 * (under[0].ms + under[1].ms);
-        way.mebibytes = std::max(under[0].mebibytes, under[1].mebibytes);
+        configuration.ms = 0.5 * (under[0].ms + under[1].ms);
+        configuration.mebibytes = std::max(under[0].mebibytes, under[1].mebibytes);
     }
 };
 
@@ -61,9 +61,10 @@ trial make_trial(const std::string& mesh, std::size_t triangles, const char* pol
     // All policies draw the same triangles in each pixel, so that their shadows alone differ.
     in::render_options<Shadow> how{.shadow = shadow};
     how.subpixel_bits = in::render_options<>{}.subpixel_bits;
-    trial t{.way = {.mesh = mesh, .policy = policy, .triangles = triangles},
+    trial t{.configuration = {.mesh = mesh, .policy = policy, .triangles = triangles},
             .draw = [how](const lit_scene& s) { return in::render(*s.scene, s.rig, how); }};
-    if constexpr (requires { shadow.texels_per_pixel; }) t.way.texels = static_cast<double>(shadow.texels_per_pixel);
+    if constexpr (requires { shadow.texels_per_pixel; })
+        t.configuration.texels = static_cast<double>(shadow.texels_per_pixel);
     return t;
 }
 
@@ -124,7 +125,7 @@ void measure_meshes(int pixels, int runs, report::contents& into) {
         add("exact", in::shadow::exact{});
         for (int run = 0; run < runs; ++run)
             for (trial& t : trials) t.run(lights, run == 0);
-        for (const trial& t : trials) into.mesh_ways.push_back(t.way);
+        for (const trial& t : trials) into.mesh_configurations.push_back(t.configuration);
         if (name == "statue 72k" || name == "fine grid, shuffled")
             measure_rounding(pixels, runs, into, name, scene, oracle, pool);
     }

@@ -40,7 +40,7 @@ struct mesh_configuration {
     double edge = 0;   ///< mean displacement of shadow edges, pixels
 };
 
-/// What the report is about.
+/// All measurements of the report.
 struct contents {
     int pixels = 0;
     double grazing_degrees = 0;
@@ -131,9 +131,10 @@ inline std::string names_beside(const std::vector<std::pair<std::array<double, 2
 /// Time against error, one panel per seabed: configurations as dots, the Pareto front as a line, presets ringed.
 inline std::string trade_chart(const contents& c) {
     constexpr double width = 330, height = 300, left = 80, top = 64, gap = 30;
-    double least = 1e30, most = 0;
-    for (const configuration& w : c.configurations) least = std::min(least, w.ms), most = std::max(most, w.ms);
-    const double low_ms = std::log10(least) - 0.05, high_ms = std::log10(most) + 0.05;
+    double fastest = 1e30, slowest = 0;
+    for (const configuration& w : c.configurations)
+        fastest = std::min(fastest, w.ms), slowest = std::max(slowest, w.ms);
+    const double low_ms = std::log10(fastest) - 0.05, high_ms = std::log10(slowest) + 0.05;
     constexpr double low_edge = -1.5, high_edge = 1.2;  // powers of ten of pixels
     std::string body = svg::text(
         left, 24, "CPU time of a frame against the error of shadow edges: lower is faster, left is more accurate",

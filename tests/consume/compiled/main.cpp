@@ -1,4 +1,4 @@
-// Units with other flags in one program: each draws the same bytes, and pictures pass from one to the next.
+// Links units with different flags: each draws the same bytes, and units exchange pictures.
 #include <cstdio>
 
 #include "unit.hpp"

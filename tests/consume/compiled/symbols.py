@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The names of a program out of units with other flags: symbols.py <program>
+"""Checks the symbols of a program linked from units with different flags: symbols.py <program>
 
 No public type's name holds the flags of a unit. Functions of the library that were compiled with assertions, or with
 instructions that not every x86-64 has, hold them. The standard library's templates are not the library's functions:

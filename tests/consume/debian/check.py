@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Builds the Debian packages and a program against what is in them: check.py <project folder> <compiler...>
+"""Builds the Debian packages and a program against their contents: check.py <project folder> <compiler...>
 
-77 where dpkg-buildpackage or debhelper is missing.
+Exits with 77 if dpkg-buildpackage or debhelper is missing.
 """
 
 import pathlib
@@ -17,7 +17,7 @@ FILES = ["usr/include/insonify/insonify.hpp", "usr/share/cmake/insonify/insonify
 def main():
     project, compiler = pathlib.Path(sys.argv[1]), sys.argv[2:]
     if not (shutil.which("dpkg-buildpackage") and shutil.which("dh")):
-        print("Without dpkg-buildpackage or debhelper: no package is built.")
+        print("skipped: dpkg-buildpackage or debhelper not found")
         sys.exit(77)
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([project / "tools/packaging/debian/build", folder], check=True)

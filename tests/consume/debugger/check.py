@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints values of the library in gdb: check.py <project folder> <compiler...>; 77 without gdb"""
+"""Prints values of the library in gdb: check.py <project folder> <compiler...>; exits with 77 without gdb"""
 
 import pathlib
 import shutil
@@ -27,6 +27,7 @@ EXPECTED = [
 def main():
     project, compiler = pathlib.Path(sys.argv[1]), sys.argv[2:]
     if shutil.which("gdb") is None:
+        print("skipped: gdb not found")
         sys.exit(77)
     with tempfile.TemporaryDirectory() as folder:
         source, program = pathlib.Path(folder, "main.cpp"), pathlib.Path(folder, "main")

@@ -1,4 +1,4 @@
-// Uses what units of the compiled form have to name.
+// Includes by name the headers that units of the compiled form need.
 #include <insonify/geometry/objects/tyre.hpp>
 #include <insonify/insonify.hpp>
 #include <insonify/sonar/side_scan/recording.hpp>

@@ -1,4 +1,4 @@
-// Depth alone, no shading compiled: how far away a scanner above a seabed sees each pixel; depth_alone writes
+// Depth-only rendering, which compiles no shading: the depth buffer of a scanner above a seabed; depth_only writes
 // depth.png.
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
@@ -21,7 +21,7 @@ int main() {
     const auto stats = in::draw(bottom, [&](const in::vertex& v) { return view(v.position); }, in::depth_target{depth},
                                 {.keep = in::keep_depth::larger, .load = in::depth_load::clear});
 
-    // Depth is z_near / distance, and empty_depth where no surface is.
+    // Depth is z_near / distance, and empty_depth where no surface covers the pixel.
     float nearest = 0;
     for (const float d : depth.pixels()) nearest = (std::max)(nearest, d);
     std::printf("%llu triangles, the nearest point is %.2f m away\n", static_cast<unsigned long long>(stats.triangles),

@@ -1,4 +1,4 @@
-// In the compiled form, a backscatter law of one's own needs the painter's header.
+// In the compiled form, a user's backscatter law needs sonar/overhead/render.hpp.
 // expect: a shadow policy, law or depth other than the built-in ones needs .*sonar/overhead/render.hpp
 #define INSONIFY_COMPILED
 #include <insonify/insonify.hpp>

@@ -1,4 +1,4 @@
-// In the compiled form, a backscatter law of one's own needs the recorder's header.
+// In the compiled form, a user's backscatter law needs sonar/side_scan/record.hpp.
 // expect: a law other than the built-in ones needs .*sonar/side_scan/record.hpp
 #define INSONIFY_COMPILED
 #include <insonify/insonify.hpp>
