@@ -7132,6 +7132,20 @@ INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m);
 INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> primitive_facts_of(mesh m);
 
 #if INSONIFY_BODIES
+/// Whether a heightfield, whose outline is convex, extends over all of its box, seen from above.
+inline bool fills_box(const mesh& m, const bounding_box& box) {
+    bool has_corner[4] = {};
+    for (const glm::uvec3& t : m.triangles)
+        for (int i = 0; i < 3; ++i) {
+            const glm::dvec3 p(m.positions[t[i]]);
+            for (int corner = 0; corner < 4; ++corner) {
+                const glm::dvec3 at = box.corner(corner);
+                has_corner[corner] = has_corner[corner] || (p.x == at.x && p.y == at.y);
+            }
+        }
+    return has_corner[0] && has_corner[1] && has_corner[2] && has_corner[3];
+}
+
 INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m) {
     const auto made = std::make_shared<mesh_facts>();
     mesh_facts& facts = *made;
@@ -7148,6 +7162,9 @@ INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m) {
     else
         wind_by_normals(facts.shape);
     facts.kind = kind_of(facts.shape);
+    // Where else renderers would have to find out what lies below a position.
+    if (facts.kind == surface_kind::heightfield && !facts.grid && !fills_box(facts.shape, facts.box))
+        facts.kind = surface_kind::open;
     if (facts.kind != surface_kind::heightfield) facts.grid.reset();
     return made;
 }
@@ -7201,6 +7218,7 @@ class shared_mesh {
 
     /// Around all finite positions, in the mesh's own frame.
     const bounding_box& box() const { return facts_->box; }
+    /// Heightfields whose outline is neither their grid's nor that of the box count as open.
     surface_kind kind() const { return facts_->kind; }
     /// The grid of a heightfield whose vertices lie on one, within `grid_error` steps; null otherwise.
     const regular_grid* grid() const { return facts_->grid ? &*facts_->grid : nullptr; }
@@ -11295,7 +11313,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 /// Camera and light above a position on the seabed. Image up is forward, image right is starboard. The light comes from
-/// the left, so shadows fall to the right, as in a starboard channel.
+/// the left, so shadows fall to the right, as in a starboard channel. What is less than a thousandth of the altitude
+/// below the camera, or above it, is not drawn; it still casts shadows.
 ///
 /// A pixel is linear radiance: reflectivity x (intensity x law(sine of the grazing angle on the surface) x lit fraction
 /// + sky x fraction of the sky that the surface faces + ambient), clamped to 1.
@@ -11407,6 +11426,8 @@ class overhead_geometry {
     }
 
     glm::dvec3 eye() const { return {0, 0, rig_.altitude}; }
+    /// Height up to which everything is in front of the near plane, however `clip` is rounded.
+    double highest_drawn() const { return (1 - 2e-3) * static_cast<double>(rig_.altitude); }
     /// Metres per pixel, 1 m below the camera.
     double ray_step() const { return 2 * tangent_ / rig_.size.x; }
     /// Vector from the camera through a pixel's centre, to 1 m below it.
@@ -17251,21 +17272,32 @@ struct surface_varyings {
     float height;
 };
 
+inline bool is_far_from_origin(const bounding_box& box) {
+    if (box.empty()) return false;
+    const glm::dvec3 size = box.size();
+    const double longest = (std::max)({size.x, size.y, size.z});
+    for (int axis = 0; axis < 3; ++axis)
+        if (numeric::abs(box.centre()[axis]) > 2 * longest) return true;
+    return false;
+}
+
 /// Vertex shader of a mesh in the rig's picture.
 struct surface_vertex_shader {
     const overhead_geometry& view;
+    glm::vec3 centre{0};  ///< subtracted before positions are multiplied
     glm::mat3 linear;
     glm::vec3 offset;
     glm::mat3 normals;
 
     surface_vertex_shader(const overhead_geometry& rig, const placed_mesh& shape)
-        : view(rig),
-          linear(shape.to_rig.linear),
-          offset(shape.to_rig.offset),
-          normals(numeric::cofactors(shape.to_rig.linear)) {}
+        : view(rig), linear(shape.to_rig.linear), normals(numeric::cofactors(shape.to_rig.linear)) {
+        // Products of coordinates much larger than the mesh would cancel, and leave their rounding errors.
+        if (is_far_from_origin(shape.box)) centre = glm::vec3(shape.box.centre());
+        offset = glm::vec3(transform_point(shape.to_rig, glm::dvec3(centre)));
+    }
 
     placed_vertex<surface_varyings> operator()(const vertex& v) const {
-        const glm::vec3 position = numeric::product(linear, v.position) + offset;
+        const glm::vec3 position = numeric::product(linear, v.position - centre) + offset;
         return {view.clip(position), {numeric::product(normals, v.normal), position.z}};
     }
     /// See vertex_lane_shader.
@@ -17273,7 +17305,8 @@ struct surface_vertex_shader {
     INSONIFY_INLINE void operator()(Floats (&clip)[4], Floats* varyings, const Floats (&position)[3],
                                     const Floats (&normal)[3]) const {
         Floats placed[3];
-        numeric::product(placed, linear, position);
+        const Floats from_centre[3] = {position[0] - centre.x, position[1] - centre.y, position[2] - centre.z};
+        numeric::product(placed, linear, from_centre);
         for (int i = 0; i < 3; ++i) placed[i] = placed[i] + offset[i];
         numeric::product(varyings, normals, normal);
         varyings[3] = placed[2];
@@ -17810,14 +17843,29 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
+/// Whether a position lies over a heightfield, whose outline is that of its grid or, without one, that of its box.
+inline bool is_within_outline(const placed_mesh& m, const glm::dvec3& p) {
+    if (m.grid == nullptr)
+        return p.x >= m.box.lower.x && p.x <= m.box.upper.x && p.y >= m.box.lower.y && p.y <= m.box.upper.y;
+    const regular_grid& g = *m.grid;
+    const glm::dvec2 from = glm::dvec2(p) - g.origin;
+    const double area = g.right.x * g.up.y - g.right.y * g.up.x;
+    const double column = (from.x * g.up.y - from.y * g.up.x) / area,
+                 row = (g.right.x * from.y - g.right.y * from.x) / area;
+    return column >= g.off && column <= g.columns - 1 - g.off && row >= g.off && row <= g.rows - 1 - g.off;
+}
+
 /// A mesh as a caster, and which of its triangles may be skipped for points that the camera sees.
 ///
 /// A ray that starts outside of a closed mesh and hits it enters it through a triangle that faces away from the light,
-/// so triangles that face the light may be skipped. What a camera outside of the mesh sees lies outside. The same holds
-/// for a heightfield's own points if camera and light are above it: rays leave its bounds above the surface. From
-/// beside it, a camera may see its lower side, under its border.
+/// so triangles that face the light may be skipped. What a camera outside of the mesh sees lies outside, unless the
+/// near plane cuts the mesh open. The same holds for a heightfield's own points if camera and light are above it: rays
+/// leave its bounds above the surface. From beside it, a camera may see its lower side, under its border.
 inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh& m) {
     const view_from_object from(view, m.to_rig);
+    bool is_whole = true;  // in front of the near plane
+    for (int i = 0; i < 8; ++i)
+        is_whole = is_whole && transform_point(m.to_rig, m.box.corner(i)).z < view.highest_drawn();
     const auto is_outside = [&](const glm::dvec3& p) {
         bool outside = false;
         for (int i = 0; i < 3; ++i) outside = outside || p[i] < m.box.lower[i] || p[i] > m.box.upper[i];
@@ -17827,10 +17875,11 @@ inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh
     const bool is_lit_from_above = view.has_near_light() ? is_above(from.light) : from.light.z > 0;
     const bool is_lit_from_outside = !view.has_near_light() || is_outside(from.light);
     shadow::skip may_skip = shadow::skip::nothing;
-    if (m.kind == surface_kind::closed && is_outside(from.eye) && is_lit_from_outside) may_skip = shadow::skip::facing;
-    const bool is_over_it = is_above(from.eye) && from.eye.x >= m.box.lower.x && from.eye.x <= m.box.upper.x &&
-                            from.eye.y >= m.box.lower.y && from.eye.y <= m.box.upper.y;
-    if (m.kind == surface_kind::heightfield && is_over_it && is_lit_from_above) may_skip = shadow::skip::facing_its_own;
+    if (m.kind == surface_kind::closed && is_whole && is_outside(from.eye) && is_lit_from_outside)
+        may_skip = shadow::skip::facing;
+    if (m.kind == surface_kind::heightfield && is_whole && is_above(from.eye) && is_within_outline(m, from.eye) &&
+        is_lit_from_above)
+        may_skip = shadow::skip::facing_its_own;
     return {m.shape, m.to_rig, m.box, may_skip, m.grid};
 }
 
@@ -18571,11 +18620,17 @@ class overhead_painter {
 
         seabed::height_range range = merge(scene_.seabed.prepare().range(), {0, 0});
         seabed::detail::require_finite(range);
-        ground_rect ground = shown_ground(view_, range);
-        if constexpr (casts)
-            ground = casting_ground(ground, range, view_.world_light(), shadow::radius_of(options_.shadow),
-                                    static_cast<double>(options_.reach) * longer_side(view_));
-        bottom_.sample(scene_.seabed, rig.position, ground, spacing, ex);
+        const auto sample = [&](const seabed::height_range& heights) {
+            ground_rect ground = shown_ground(view_, heights);
+            if constexpr (casts)
+                ground = casting_ground(ground, heights, view_.world_light(), shadow::radius_of(options_.shadow),
+                                        static_cast<double>(options_.reach) * longer_side(view_));
+            bottom_.sample(scene_.seabed, rig.position, ground, spacing, ex);
+        };
+        sample(range);
+        // Through gaps, targets below the seabed may be seen, which ground farther towards the light shades.
+        const double deepest = casts && bottom_.is_open() ? lowest_target() : range.lowest;
+        if (deepest < range.lowest) sample({deepest, range.highest});
         seabed::detail::require_within(range, static_cast<double>(bottom_.lowest()),
                                        static_cast<double>(bottom_.highest()));
         const seabed::heightfield& field = bottom_.field();
@@ -18588,6 +18643,14 @@ class overhead_painter {
         if (field.types.empty()) return;
         objects_.back().types = field.types.pixels().data();
         objects_.back().materials = materials_.data();
+    }
+
+    double lowest_target() const {
+        double lowest = std::numeric_limits<double>::infinity();
+        for (const target& t : scene_.targets)
+            for (int corner = 0; corner < 8 && !t.shape.box().empty(); ++corner)
+                lowest = (std::min)(lowest, transform_point(to_world(t.placement), t.shape.box().corner(corner)).z);
+        return lowest;
     }
 
     /// A box around everything that the picture may show.

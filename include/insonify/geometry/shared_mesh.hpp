@@ -42,6 +42,20 @@ INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m);
 INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> primitive_facts_of(mesh m);
 
 #if INSONIFY_BODIES
+/// Whether a heightfield, whose outline is convex, extends over all of its box, seen from above.
+inline bool fills_box(const mesh& m, const bounding_box& box) {
+    bool has_corner[4] = {};
+    for (const glm::uvec3& t : m.triangles)
+        for (int i = 0; i < 3; ++i) {
+            const glm::dvec3 p(m.positions[t[i]]);
+            for (int corner = 0; corner < 4; ++corner) {
+                const glm::dvec3 at = box.corner(corner);
+                has_corner[corner] = has_corner[corner] || (p.x == at.x && p.y == at.y);
+            }
+        }
+    return has_corner[0] && has_corner[1] && has_corner[2] && has_corner[3];
+}
+
 INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m) {
     const auto made = std::make_shared<mesh_facts>();
     mesh_facts& facts = *made;
@@ -58,6 +72,9 @@ INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m) {
     else
         wind_by_normals(facts.shape);
     facts.kind = kind_of(facts.shape);
+    // Where else renderers would have to find out what lies below a position.
+    if (facts.kind == surface_kind::heightfield && !facts.grid && !fills_box(facts.shape, facts.box))
+        facts.kind = surface_kind::open;
     if (facts.kind != surface_kind::heightfield) facts.grid.reset();
     return made;
 }
@@ -111,6 +128,7 @@ class shared_mesh {
 
     /// Around all finite positions, in the mesh's own frame.
     const bounding_box& box() const { return facts_->box; }
+    /// Heightfields whose outline is neither their grid's nor that of the box count as open.
     surface_kind kind() const { return facts_->kind; }
     /// The grid of a heightfield whose vertices lie on one, within `grid_error` steps; null otherwise.
     const regular_grid* grid() const { return facts_->grid ? &*facts_->grid : nullptr; }

@@ -413,10 +413,11 @@ TEST_CASE("Seabed that cannot cast a shadow into the picture changes no pixel") 
 }
 
 TEST_CASE("Targets below a gap in the seabed have the shadows that they have without seabed") {
+    // The gap is a trench along the light, whose rims shade nothing.
     in::seabed::heightfield rim{.heights = in::image<float>(121, 121, 0.0f), .origin = {-15, -15}, .spacing = 0.25};
     for (int j = 0; j < 121; ++j)
-        for (int i = 0; i < 121; ++i)
-            if (std::abs(0.25 * i - 15) < 6 && std::abs(0.25 * j - 15) < 6) rim.heights(i, j) = std::nanf("");
+        if (std::abs(0.25 * j - 15) < 8)
+            for (int i = 0; i < 121; ++i) rim.heights(i, j) = std::nanf("");
     for (const double depth : {3.0, 6.0})
         for (const float distance : {std::numeric_limits<float>::infinity(), 30.0f}) {
             in::overhead rig{.altitude = 4, .field_of_view = 1.2f, .size = {96, 96}, .grazing = 0.5f};
@@ -454,6 +455,92 @@ TEST_CASE("A camera that looks under the border of a heightfield sees its lower 
         for (std::size_t i = 0; i < frame.image.size(); ++i)
             dark += frame.labels.instance.pixels()[i] != 0 && frame.labels.shadow.pixels()[i] != in::labels::is_lit;
         CHECK(dark == 0);
+    }
+}
+
+namespace {
+
+/// The same triangles wound clockwise: an open mesh.
+in::mesh turned(in::mesh m) {
+    for (glm::uvec3& t : m.triangles) std::swap(t.y, t.z);
+    return m;
+}
+in::frame<> alone(const in::mesh& m, const in::pose& where, const in::overhead& rig) {
+    in::scene s;
+    s.seabed = in::seabed::none{};
+    s.add(m, where, "mesh");
+    return in::render(s, rig);
+}
+
+}  // namespace
+
+TEST_CASE("A camera within the box of a heightfield, but beside its outline, sees its lower side as of any mesh") {
+    const float height[] = {0, 0.2f, 4};
+    const in::mesh diagonal = shadow_meshes::sheet(4, 2, [&](double u, double v) {
+        const double along = 2 * v, across = 4 * u - 2;
+        return glm::dvec3(along + across, along - across, static_cast<double>(height[static_cast<int>(along)]));
+    });
+    in::overhead rig{.position = {3, 3}, .altitude = 4.5f, .size = {64, 64}, .grazing = 0.7f};
+    rig.light_azimuth = -135_deg;
+    CHECK(in::shared_mesh(diagonal).grid() != nullptr);
+    const auto seen = alone(diagonal, {}, rig);
+    CHECK(seen.labels.targets[0].area > 500);
+    CHECK(seen.labels.shadow == alone(turned(diagonal), {}, rig).labels.shadow);
+
+    // A vertex that no triangle uses extends the box.
+    in::mesh steps{{{0, -1, 0}, {0, 1.5f, 0}, {1, -1, 3}, {1, 1.5f, 3}, {2, -1, 4}, {2, 1.5f, 4}, {5, 0, 0}},
+                   {},
+                   {{0, 2, 3}, {0, 3, 1}, {2, 4, 5}, {2, 5, 3}}};
+    CHECK(in::shared_mesh(steps).kind() == in::surface_kind::open);
+    rig.position = {3, 0};
+    rig.grazing = 61_deg;
+    rig.light_azimuth = 180_deg;
+    CHECK(alone(steps, {}, rig).labels.shadow == alone(turned(steps), {}, rig).labels.shadow);
+    steps.positions.pop_back();
+    CHECK(in::shared_mesh(steps).kind() == in::surface_kind::heightfield);
+}
+
+TEST_CASE("A closed mesh that the near plane cuts open is dark inside") {
+    in::mesh box = in::to_mesh(in::cube{.size = glm::vec3(8)});
+    box.normals.clear();
+    const in::overhead rig{.altitude = 10, .field_of_view = 120_deg, .size = {128, 16}, .grazing = 0.6f};
+    for (const double gap : {0.001, 0.01, 0.1}) {
+        const in::pose beside{.position = {4 + gap, 0, 10}};
+        CAPTURE(gap);
+        CHECK(alone(box, beside, rig).labels.shadow ==
+              alone(shadow_meshes::joined(box, far_below), beside, rig).labels.shadow);
+    }
+}
+
+TEST_CASE("A target below a gap is shaded by seabed that is farther away than any that shades the datum") {
+    in::seabed::heightfield rim{.heights = in::image<float>(201, 201, 0.0f), .origin = {-25, -25}, .spacing = 0.25};
+    for (int j = 0; j < 201; ++j)
+        for (int i = 52; i <= 148; ++i) rim.heights(i, j) = std::nanf("");  // from x = -12 to 12
+    in::scene s;
+    s.seabed = rim;
+    s.add(in::cube{.size = {60, 60, 1}}, {.position = {0, 0, -3.5}}, "floor");
+    const in::overhead rig{.altitude = 10, .field_of_view = 1.2f, .size = {64, 64}, .grazing = 0.2f};
+    const auto frame = in::render(s, rig);
+    for (int x = 0; x < 64; ++x) {
+        const double at = in::overhead_geometry(rig).ray(x, 32).x * 13, crossing = at - 3 / std::tan(0.2);
+        CAPTURE(at, crossing);
+        if (frame.labels.instance(x, 32) == 1 && std::abs(crossing + 12) > 0.5)
+            CHECK((frame.labels.shadow(x, 32) == in::labels::by_seabed) == (crossing < -12));
+    }
+    CHECK(frame.labels.targets[0].area > 3000);
+}
+
+TEST_CASE("A mesh far from its own origin is drawn where the same mesh around it is") {
+    const in::overhead rig{.altitude = 10, .field_of_view = 0.5f, .size = {512, 512}, .grazing = 0.3f};
+    const in::mesh box = in::to_mesh(in::cube{.size = glm::vec3(2)});
+    const auto near = alone(box, {.position = {0, 0, 1}, .yaw = 0.5f}, rig);
+    for (const float away : {1000.0f, 100000.0f}) {  // metres, of which float holds the vertices exactly
+        in::mesh moved = box;
+        for (glm::vec3& p : moved.positions) p.x += away;
+        const glm::dvec3 back{-std::cos(0.5) * static_cast<double>(away), -std::sin(0.5) * static_cast<double>(away),
+                              1};
+        CAPTURE(away);
+        CHECK(alone(moved, {.position = back, .yaw = 0.5f}, rig).labels.instance == near.labels.instance);
     }
 }
 

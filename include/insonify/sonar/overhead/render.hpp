@@ -123,11 +123,17 @@ class overhead_painter {
 
         seabed::height_range range = merge(scene_.seabed.prepare().range(), {0, 0});
         seabed::detail::require_finite(range);
-        ground_rect ground = shown_ground(view_, range);
-        if constexpr (casts)
-            ground = casting_ground(ground, range, view_.world_light(), shadow::radius_of(options_.shadow),
-                                    static_cast<double>(options_.reach) * longer_side(view_));
-        bottom_.sample(scene_.seabed, rig.position, ground, spacing, ex);
+        const auto sample = [&](const seabed::height_range& heights) {
+            ground_rect ground = shown_ground(view_, heights);
+            if constexpr (casts)
+                ground = casting_ground(ground, heights, view_.world_light(), shadow::radius_of(options_.shadow),
+                                        static_cast<double>(options_.reach) * longer_side(view_));
+            bottom_.sample(scene_.seabed, rig.position, ground, spacing, ex);
+        };
+        sample(range);
+        // Through gaps, targets below the seabed may be seen, which ground farther towards the light shades.
+        const double deepest = casts && bottom_.is_open() ? lowest_target() : range.lowest;
+        if (deepest < range.lowest) sample({deepest, range.highest});
         seabed::detail::require_within(range, static_cast<double>(bottom_.lowest()),
                                        static_cast<double>(bottom_.highest()));
         const seabed::heightfield& field = bottom_.field();
@@ -140,6 +146,14 @@ class overhead_painter {
         if (field.types.empty()) return;
         objects_.back().types = field.types.pixels().data();
         objects_.back().materials = materials_.data();
+    }
+
+    double lowest_target() const {
+        double lowest = std::numeric_limits<double>::infinity();
+        for (const target& t : scene_.targets)
+            for (int corner = 0; corner < 8 && !t.shape.box().empty(); ++corner)
+                lowest = (std::min)(lowest, transform_point(to_world(t.placement), t.shape.box().corner(corner)).z);
+        return lowest;
     }
 
     /// A box around everything that the picture may show.

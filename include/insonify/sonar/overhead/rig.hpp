@@ -15,7 +15,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 /// Camera and light above a position on the seabed. Image up is forward, image right is starboard. The light comes from
-/// the left, so shadows fall to the right, as in a starboard channel.
+/// the left, so shadows fall to the right, as in a starboard channel. What is less than a thousandth of the altitude
+/// below the camera, or above it, is not drawn; it still casts shadows.
 ///
 /// A pixel is linear radiance: reflectivity x (intensity x law(sine of the grazing angle on the surface) x lit fraction
 /// + sky x fraction of the sky that the surface faces + ambient), clamped to 1.
@@ -127,6 +128,8 @@ class overhead_geometry {
     }
 
     glm::dvec3 eye() const { return {0, 0, rig_.altitude}; }
+    /// Height up to which everything is in front of the near plane, however `clip` is rounded.
+    double highest_drawn() const { return (1 - 2e-3) * static_cast<double>(rig_.altitude); }
     /// Metres per pixel, 1 m below the camera.
     double ray_step() const { return 2 * tangent_ / rig_.size.x; }
     /// Vector from the camera through a pixel's centre, to 1 m below it.

@@ -34,21 +34,32 @@ struct surface_varyings {
     float height;
 };
 
+inline bool is_far_from_origin(const bounding_box& box) {
+    if (box.empty()) return false;
+    const glm::dvec3 size = box.size();
+    const double longest = (std::max)({size.x, size.y, size.z});
+    for (int axis = 0; axis < 3; ++axis)
+        if (numeric::abs(box.centre()[axis]) > 2 * longest) return true;
+    return false;
+}
+
 /// Vertex shader of a mesh in the rig's picture.
 struct surface_vertex_shader {
     const overhead_geometry& view;
+    glm::vec3 centre{0};  ///< subtracted before positions are multiplied
     glm::mat3 linear;
     glm::vec3 offset;
     glm::mat3 normals;
 
     surface_vertex_shader(const overhead_geometry& rig, const placed_mesh& shape)
-        : view(rig),
-          linear(shape.to_rig.linear),
-          offset(shape.to_rig.offset),
-          normals(numeric::cofactors(shape.to_rig.linear)) {}
+        : view(rig), linear(shape.to_rig.linear), normals(numeric::cofactors(shape.to_rig.linear)) {
+        // Products of coordinates much larger than the mesh would cancel, and leave their rounding errors.
+        if (is_far_from_origin(shape.box)) centre = glm::vec3(shape.box.centre());
+        offset = glm::vec3(transform_point(shape.to_rig, glm::dvec3(centre)));
+    }
 
     placed_vertex<surface_varyings> operator()(const vertex& v) const {
-        const glm::vec3 position = numeric::product(linear, v.position) + offset;
+        const glm::vec3 position = numeric::product(linear, v.position - centre) + offset;
         return {view.clip(position), {numeric::product(normals, v.normal), position.z}};
     }
     /// See vertex_lane_shader.
@@ -56,7 +67,8 @@ struct surface_vertex_shader {
     INSONIFY_INLINE void operator()(Floats (&clip)[4], Floats* varyings, const Floats (&position)[3],
                                     const Floats (&normal)[3]) const {
         Floats placed[3];
-        numeric::product(placed, linear, position);
+        const Floats from_centre[3] = {position[0] - centre.x, position[1] - centre.y, position[2] - centre.z};
+        numeric::product(placed, linear, from_centre);
         for (int i = 0; i < 3; ++i) placed[i] = placed[i] + offset[i];
         numeric::product(varyings, normals, normal);
         varyings[3] = placed[2];
