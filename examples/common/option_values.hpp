@@ -3,7 +3,9 @@
 
 #include <charconv>
 #include <cstdint>
+#include <filesystem>
 #include <string>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 
@@ -32,6 +34,20 @@ inline CLI::Validator number(double low, double high) {
                    CLI::detail::to_string(high);
         },
         "", "number");
+}
+
+/// Name of a folder that exists or can be created.
+inline CLI::Validator folder_to_fill() {
+    return CLI::Validator(
+        [](std::string& name) -> std::string {
+            if (name.empty()) return "an empty name is not a folder";
+            std::error_code ignored;
+            const auto status = std::filesystem::status(name, ignored);
+            return std::filesystem::exists(status) && !std::filesystem::is_directory(status)
+                       ? "'" + name + "' is not a folder"
+                       : "";
+        },
+        "", "folder");
 }
 
 }  // namespace examples

@@ -127,7 +127,7 @@ options parsed(int argc, const char* const* argv,
     const char* const what = "What to make";
     app.add_option("--out", o.out, "Folder of the data set; created if missing")
         ->required()
-        ->check([](const std::string& name) { return name.empty() ? "an empty name is not a folder" : ""; })
+        ->check(examples::folder_to_fill())
         ->group(what);
     app.add_option("--count", o.count, "How many images (24)")->check(whole_number(1, max_images))->group(what);
     app.add_option("--first", o.first, "Index of the first image (0)")

@@ -25,7 +25,9 @@ inline options parse(int argc, char** argv) {
     CLI::App app{"Runs a side-scan survey and writes its waterfall, labels, navigation, contacts and map.",
                  "sidescan_survey"};
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    app.add_option("--out", o.out, "Folder of the output; created if missing")->required();
+    app.add_option("--out", o.out, "Folder of the output; created if missing")
+        ->required()
+        ->check(examples::folder_to_fill());
     app.add_option("--waypoints", o.waypoints,
                    "File of lines x,y in metres (parallel legs of --length, --width, --between)");
     app.add_option("--length", o.length, "Length of a leg, metres (60)")->check(examples::number(1.0, 1e6));

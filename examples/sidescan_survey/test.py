@@ -135,6 +135,8 @@ class Survey(unittest.TestCase):
         for option in "--width", "--speed", "--ping-rate", "--length", "--beam", "--turn-rate", "--targets":
             self.assertIn("'nan' is not a number", run(*out, option, "nan", expect=2, seconds=20))
         self.assertIn("--altitude: 1 m", run(*out, "--altitude", 1, expect=2))
+        self.assertIn("--out: an empty name is not a folder", run("--out", "", expect=2))
+        self.assertIn("points.csv' is not a folder", run("--out", self.folder / "points.csv", expect=2))
 
     def test_steps_longer_than_the_turning_circle_reach_the_end(self):
         run("--out", self.folder, *SMALL, "--length", 63, "--width", 0, "--speed", 2, "--ping-rate", 0.2, "--turn-rate",

@@ -1,5 +1,5 @@
-// Policy macros. A program may define any of the following before its first include of the library, the same in every
-// translation unit that shares insonify types.
+// Policy macros. A program may define any of the following before its first include of the library. Units may differ in
+// them: docs/compile_cost.md says how they mix.
 //
 //     INSONIFY_SIMD           1 (default where the compiler has vector extensions) or 0: everything scalar, same bytes
 //     INSONIFY_ASSERT(x)      internal invariants; default: assert(x)
@@ -23,6 +23,10 @@
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
     (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "insonify's results are bit-identical on all platforms, which -ffast-math breaks: compile without it."
+#endif
+
+#if defined(GLM_FORCE_CTOR_INIT) || defined(GLM_FORCE_CXX98)
+#error "insonify copies GLM's vectors as bytes: compile without GLM_FORCE_CTOR_INIT and GLM_FORCE_CXX98."
 #endif
 
 #if defined(__FLT_EVAL_METHOD__) && (__FLT_EVAL_METHOD__ == 2 || __FLT_EVAL_METHOD__ < 0)

@@ -34,8 +34,8 @@
 #define INSONIFY_VERSION_PATCH 0
 
 // ------------ insonify/config.hpp -----------------------------------------------------------------------
-// Policy macros. A program may define any of the following before its first include of the library, the same in every
-// translation unit that shares insonify types.
+// Policy macros. A program may define any of the following before its first include of the library. Units may differ in
+// them: docs/compile_cost.md says how they mix.
 //
 //     INSONIFY_SIMD           1 (default where the compiler has vector extensions) or 0: everything scalar, same bytes
 //     INSONIFY_ASSERT(x)      internal invariants; default: assert(x)
@@ -56,6 +56,10 @@
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
     (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "insonify's results are bit-identical on all platforms, which -ffast-math breaks: compile without it."
+#endif
+
+#if defined(GLM_FORCE_CTOR_INIT) || defined(GLM_FORCE_CXX98)
+#error "insonify copies GLM's vectors as bytes: compile without GLM_FORCE_CTOR_INIT and GLM_FORCE_CXX98."
 #endif
 
 #if defined(__FLT_EVAL_METHOD__) && (__FLT_EVAL_METHOD__ == 2 || __FLT_EVAL_METHOD__ < 0)
@@ -492,6 +496,9 @@ char* format_number(char* first, char* last, Number value) {
 //
 // Bad elements of large data (a NaN vertex, a degenerate triangle) are not errors: they are skipped and counted.
 
+#if !defined(__cpp_exceptions)
+#include <cstdio>
+#endif
 #include <exception>
 #include <stdexcept>
 
@@ -518,7 +525,7 @@ template <class Error>
     INSONIFY_THROW(error);
     std::terminate();
 #else
-    static_cast<void>(error);
+    std::fprintf(stderr, "%s\n", error.what());
     std::terminate();
 #endif
 }
@@ -2011,6 +2018,10 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
+/// Whether arrays of a vector of three values have no padding. GLM's aligned types have some.
+template <class Vector>
+inline constexpr bool is_packed = sizeof(Vector) == 3 * sizeof(std::declval<Vector&>().x);
+
 /// Gathers pairs of adjacent 32-bit values: lane k of `first` and of `second` are the two values at from(k).
 template <int N, class Lanes, class From>
 INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from) {
@@ -2069,17 +2080,6 @@ INSONIFY_INLINE void transpose_fours(lanes<float, N>* into, const lanes<float, N
         shuffle<N>(into[2 * k + 1], a, b, [](int i) { return i % 4 / 2 * N + i / 4 * 4 + i % 2 + 2; });
     });
 }
-
-/// Transposes four consecutive rows of three floats.
-INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const float* rows) {
-    lanes<float, 4> a, b, c;  // xyzx yzxy zxyz
-    load(a, rows), load(b, rows + 4), load(c, rows + 8);
-    const lanes<float, 4> xy = __builtin_shufflevector(b, c, 2, 5, 3, 6),
-                          yz = __builtin_shufflevector(a, b, 1, 4, 2, 5);
-    into[0] = __builtin_shufflevector(a, xy, 0, 3, 4, 5);
-    into[1] = __builtin_shufflevector(yz, xy, 0, 1, 6, 7);
-    into[2] = __builtin_shufflevector(yz, c, 2, 3, 4, 7);
-}
 #endif
 
 /// Transposes N rows of four floats: lane k of into[i] is rows(k)[i]; N is 1, 4, 8 or 16.
@@ -2095,6 +2095,27 @@ INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
 #endif
         std::memcpy(into, rows(0), 4 * sizeof(float));
 }
+
+#if INSONIFY_SIMD
+/// Transposes four consecutive rows of three floats.
+template <class Vector>
+INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const Vector* rows) {
+    if constexpr (!is_packed<Vector>) {
+        lanes<float, 4> padded[4];
+        transpose<4>(padded, [&](int k) { return &rows[k].x; });
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { into[i] = padded[i]; });
+        return;
+    }
+    lanes<float, 4> a, b, c;  // xyzx yzxy zxyz
+    const float* const values = &rows->x;
+    load(a, values), load(b, values + 4), load(c, values + 8);
+    const lanes<float, 4> xy = __builtin_shufflevector(b, c, 2, 5, 3, 6),
+                          yz = __builtin_shufflevector(a, b, 1, 4, 2, 5);
+    into[0] = __builtin_shufflevector(a, xy, 0, 3, 4, 5);
+    into[1] = __builtin_shufflevector(yz, xy, 0, 1, 6, 7);
+    into[2] = __builtin_shufflevector(yz, c, 2, 3, 4, 7);
+}
+#endif
 
 }  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
@@ -2733,13 +2754,13 @@ class dynamic_array {
     }
     INSONIFY_TAGGED ~dynamic_array() {
         shrink(0);
-        ::operator delete(data_);
+        deallocate(data_);
     }
 
     /// @throws std::bad_alloc
     INSONIFY_TAGGED void reserve(std::size_t count) {
         if (count <= capacity_) return;
-        T* const moved = static_cast<T*>(::operator new(array_bytes<T>(count)));
+        T* const moved = allocate(count);
         if constexpr (std::is_trivially_copyable_v<T>) {
             if (size_ > 0) std::memcpy(static_cast<void*>(moved), data_, size_ * sizeof(T));
         } else {
@@ -2748,7 +2769,7 @@ class dynamic_array {
                 data_[i].~T();
             }
         }
-        ::operator delete(data_);
+        deallocate(data_);
         data_ = moved;
         capacity_ = count;
     }
@@ -2802,8 +2823,21 @@ class dynamic_array {
     INSONIFY_MEMBER const T& back() const { return data_[size_ - 1]; }
 
   private:
-    static_assert(alignof(T) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);
     static_assert(std::is_nothrow_move_constructible_v<T>);
+
+    /// GLM's aligned types need more than the default alignment.
+    static constexpr bool is_overaligned = alignof(T) > __STDCPP_DEFAULT_NEW_ALIGNMENT__;
+    INSONIFY_MEMBER static T* allocate(std::size_t count) {
+        const std::size_t bytes = array_bytes<T>(count);
+        if constexpr (is_overaligned) return static_cast<T*>(::operator new (bytes, std::align_val_t{alignof(T)}));
+        return static_cast<T*>(::operator new(bytes));
+    }
+    INSONIFY_MEMBER static void deallocate(T* elements) {
+        if constexpr (is_overaligned)
+            ::operator delete (elements, std::align_val_t{alignof(T)});
+        else
+            ::operator delete(elements);
+    }
 
     /// At least doubles the capacity where it has to grow, so that appending takes constant time on average.
     INSONIFY_MEMBER void make_room(std::size_t count) {
@@ -6294,8 +6328,9 @@ struct bounds_kernel {
     template <int N>
     INSONIFY_INLINE void run() const {
         // N positions are three vectors, lanes of which always hold the same coordinate.
-        const std::size_t whole = count / N * N;
-        is_finite = scan<N>(0, whole) && scan<1>(whole, count);
+        constexpr int together = is_packed<glm::vec3> ? N : 1;
+        const std::size_t whole = count / together * together;
+        is_finite = scan<together>(0, whole) && scan<1>(whole, count);
     }
 
   private:
@@ -6727,8 +6762,9 @@ struct cell_row_kernel {
 
     template <int N>
     INSONIFY_INLINE void run() const {
-        const std::size_t whole = cells / N * N;
-        if (differ<N>(0, whole) || differ<1>(whole, cells)) differs = true;
+        constexpr int together = is_packed<glm::uvec3> ? N : 1;
+        const std::size_t whole = cells / together * together;
+        if (differ<together>(0, whole) || differ<1>(whole, cells)) differs = true;
     }
 
   private:
@@ -7343,7 +7379,7 @@ inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 [[noreturn]] inline void raise_io(std::string_view path, std::string_view reason) {
-    raise(io_error(std::string(path) + ": " + std::string(reason)));
+    raise(io_error((path.empty() ? "a file with an empty name" : std::string(path)) + ": " + std::string(reason)));
 }
 [[noreturn]] inline void raise_io(std::string_view path, std::string_view reason, int error) {
     raise_io(path, std::string(reason) + ": " + std::error_code(error, std::generic_category()).message());
@@ -7484,6 +7520,7 @@ class replacement_file {
     explicit replacement_file(std::string path) : path_(std::move(path)) {
         if (path_.find('\0') != std::string::npos)
             detail::raise_io(path_.c_str(), "can't open for writing: a zero byte in its name");
+        if (path_.empty()) detail::raise_io(path_, "can't open for writing");
         if (detail::is_special(path_)) detail::raise_io(path_, "can't open for writing: not a regular file");
         const std::size_t separator = path_.find_last_of("/\\") + 1;  // 0 without a folder
         const std::string shortened = path_.substr(0, separator + 240);
@@ -8342,10 +8379,17 @@ std::vector<type_properties> legend_of(const M& m) {
 }
 
 /// Appends the properties of labels that the legend lacks.
+/// @throws invalid_input for a label that has other properties in the legend
 inline void extend(std::vector<type_properties>& legend, const std::vector<type_properties>& more) {
-    for (const type_properties& p : more)
-        if (std::none_of(legend.begin(), legend.end(), [&](const type_properties& q) { return q.label == p.label; }))
+    for (const type_properties& p : more) {
+        const auto same =
+            std::find_if(legend.begin(), legend.end(), [&](const type_properties& q) { return q.label == p.label; });
+        if (same == legend.end())
             legend.push_back(p);
+        else
+            insonify::detail::require(*same == p, "type_properties.label", index_of(p.label),
+                                      "a label that no other seabed of the scene has with other properties");
+    }
 }
 
 /// How deep a layer has to sink to disappear below another, metres: about as far as its surface strays from its mean
@@ -10890,7 +10934,8 @@ inline namespace INSONIFY_ONCE {
 INSONIFY_FUNCTION void validate(const scene& s);
 
 /// The material of each label: the scene's, or that of the seabed's model where the scene sets none.
-/// @throws invalid_input for a reflectivity of the seabed that is negative or not finite
+/// @throws invalid_input for a reflectivity of the seabed that is negative or not finite, or for a label of the library
+///         with other properties than the library's
 INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s);
 
 /// The same pose, lowered or raised so that one vertex touches the seabed and none is below it. `burial` then sinks it.
@@ -10919,7 +10964,10 @@ INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s) {
     for (const insonify::seabed::type_properties& t : s.seabed.legend()) {
         detail::require(t.reflectivity >= 0 && numeric::is_finite(t.reflectivity), "type_properties.reflectivity",
                         t.reflectivity, "0 or more, finite");
-        material& m = all[insonify::seabed::index_of(t.label)];
+        const std::size_t label = insonify::seabed::index_of(t.label);
+        detail::require(label >= insonify::seabed::first_own_label || t == insonify::seabed::properties_of(t.label),
+                        "type_properties.label", label, "own_type(n), as its properties are not the library's");
+        material& m = all[label];
         if (m.reflectivity == by_seabed_model) m = {t.reflectivity};
     }
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -11636,7 +11684,10 @@ struct largest_index_kernel {
 inline std::optional<std::uint32_t> bad_index(std::span<const glm::uvec3> triangles, std::size_t vertices, isa level) {
     if (triangles.empty()) return std::nullopt;
     std::uint32_t largest = 0;
-    dispatch(largest_index_kernel{&triangles.front().x, 3 * triangles.size(), largest}, level);
+    if constexpr (is_packed<glm::uvec3>)
+        dispatch(largest_index_kernel{&triangles.front().x, 3 * triangles.size(), largest}, level);
+    else
+        for (const glm::uvec3& t : triangles) largest = (std::max)({largest, t.x, t.y, t.z});
     if (largest < vertices) return std::nullopt;
     for (const glm::uvec3& t : triangles)
         if ((std::max)({t.x, t.y, t.z}) >= vertices) return (std::max)({t.x, t.y, t.z});
@@ -13155,8 +13206,8 @@ struct vertex_kernel {
     INSONIFY_INLINE void shade_lanes(floats (&clip)[4], std::size_t start) const {
         constexpr int blocks = varyings_record<varyings_of<Shader>>::blocks;
         floats position[3], normal[3] = {}, varyings[static_cast<unsigned>(4 * blocks + 1)] = {};
-        transpose_threes(position, &m.positions[start].x);
-        if (recorded && !m.normals.empty()) transpose_threes(normal, &m.normals[start].x);
+        transpose_threes(position, &m.positions[start]);
+        if (recorded && !m.normals.empty()) transpose_threes(normal, &m.normals[start]);
         shader(clip, varyings, position, normal);
         if constexpr (recorded) {
             unroll<Record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
@@ -15799,7 +15850,7 @@ struct plane_vertices_kernel {
         using namespace insonify::detail;
         using reals = lanes<double, 4>;
         lanes<float, 4> position[3], seen[4], rows[4];
-        transpose_threes(position, &positions[i].x);
+        transpose_threes(position, &positions[i]);
         reals p[3], bad{};
         for (int axis = 0; axis < 3; ++axis) convert(p[axis], position[axis]);
         unroll<3>([&](int row) INSONIFY_INLINE_LAMBDA {
@@ -17067,8 +17118,9 @@ inline std::vector<type_properties> heightfield::legend() const {
     if (types.empty()) occurs[index_of(fallback)] = true;
     for (const type t : types.pixels()) occurs[index_of(t)] = true;
     std::vector<type_properties> all = own_types;
+    for (const type_properties& own : own_types) occurs[index_of(own.label)] = false;
     for (std::size_t i = 0; i < label_count; ++i)
-        if (occurs[i]) extend(all, {properties_of(static_cast<type>(i))});
+        if (occurs[i]) all.push_back(properties_of(static_cast<type>(i)));
     return all;
 }
 
@@ -26496,9 +26548,17 @@ image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill
 
 /// Joins a port and a starboard recording of one track, port to the left: range grows outwards from the middle, where
 /// the water column lies. The labels' bounding boxes and areas are those of both sides together.
-/// @throws invalid_input for recordings of different heights
+/// @throws invalid_input for recordings of different heights or pings, or that are not one of each side
 template <class Labels>
 frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboard) {
+    const auto require_side = [](const char* name, const ping_numbers& rows, side wanted) {
+        detail::require(rows.side == wanted && rows.port_columns == 0 && rows.step != 0, name,
+                        static_cast<int>(rows.side), "that of a recording of this side alone");
+    };
+    require_side("port.rows.side", port.rows, side::port);
+    require_side("starboard.rows.side", starboard.rows, side::starboard);
+    detail::require(port.rows.first == starboard.rows.first && port.rows.step == starboard.rows.step, "port.rows.first",
+                    port.rows.first, "that of the starboard recording, in the same order");
     frame<Labels> out;
     const auto join = [](auto& both, const auto& left, const auto& right) { both = beside(mirrored(left), right); };
     detail::for_each_image(join, out, port, starboard);

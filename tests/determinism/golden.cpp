@@ -27,9 +27,14 @@ using in::thread_pool;
 struct hash {
     std::uint64_t value = 0xcbf29ce484222325u;
 
-    /// Every number by its lowest byte first, whatever the machine's order.
+    /// Every number by its lowest byte first, whatever the machine's order, without the padding of aligned vectors.
     template <class T>
     void bytes(const T* data, std::size_t count) {
+        if constexpr (requires { T::length(); }) {
+            for (std::size_t i = 0; i < count; ++i)
+                for (int k = 0; k < T::length(); ++k) bytes(&data[i][k], 1);
+            return;
+        }
         constexpr std::size_t number = alignof(T);
         for (std::size_t i = 0; i < count * sizeof(T); ++i) {
             const std::size_t reversed = i - i % number + (number - 1 - i % number);

@@ -6,6 +6,9 @@
 #include <insonify/config.hpp>
 #include <insonify/core/detail/portable.hpp>
 
+#if !defined(__cpp_exceptions)
+#include <cstdio>
+#endif
 #include <exception>
 #include <stdexcept>
 #include <string>
@@ -35,7 +38,7 @@ template <class Error>
     INSONIFY_THROW(error);
     std::terminate();
 #else
-    static_cast<void>(error);
+    std::fprintf(stderr, "%s\n", error.what());
     std::terminate();
 #endif
 }

@@ -6,6 +6,7 @@
 #include <insonify/core/linear.hpp>
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/lanes.hpp>
+#include <insonify/core/simd/transpose.hpp>
 #include <insonify/geometry/mesh.hpp>
 
 #include <algorithm>
@@ -60,8 +61,9 @@ struct bounds_kernel {
     template <int N>
     INSONIFY_INLINE void run() const {
         // N positions are three vectors, lanes of which always hold the same coordinate.
-        const std::size_t whole = count / N * N;
-        is_finite = scan<N>(0, whole) && scan<1>(whole, count);
+        constexpr int together = is_packed<glm::vec3> ? N : 1;
+        const std::size_t whole = count / together * together;
+        is_finite = scan<together>(0, whole) && scan<1>(whole, count);
     }
 
   private:

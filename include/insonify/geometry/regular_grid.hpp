@@ -10,6 +10,7 @@
 #include <insonify/core/numeric.hpp>
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/lanes.hpp>
+#include <insonify/core/simd/transpose.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -49,8 +50,9 @@ struct cell_row_kernel {
 
     template <int N>
     INSONIFY_INLINE void run() const {
-        const std::size_t whole = cells / N * N;
-        if (differ<N>(0, whole) || differ<1>(whole, cells)) differs = true;
+        constexpr int together = is_packed<glm::uvec3> ? N : 1;
+        const std::size_t whole = cells / together * together;
+        if (differ<together>(0, whole) || differ<1>(whole, cells)) differs = true;
     }
 
   private:

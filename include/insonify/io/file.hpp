@@ -98,6 +98,7 @@ class replacement_file {
     explicit replacement_file(std::string path) : path_(std::move(path)) {
         if (path_.find('\0') != std::string::npos)
             detail::raise_io(path_.c_str(), "can't open for writing: a zero byte in its name");
+        if (path_.empty()) detail::raise_io(path_, "can't open for writing");
         if (detail::is_special(path_)) detail::raise_io(path_, "can't open for writing: not a regular file");
         const std::size_t separator = path_.find_last_of("/\\") + 1;  // 0 without a folder
         const std::string shortened = path_.substr(0, separator + 240);

@@ -157,8 +157,9 @@ inline std::vector<type_properties> heightfield::legend() const {
     if (types.empty()) occurs[index_of(fallback)] = true;
     for (const type t : types.pixels()) occurs[index_of(t)] = true;
     std::vector<type_properties> all = own_types;
+    for (const type_properties& own : own_types) occurs[index_of(own.label)] = false;
     for (std::size_t i = 0; i < label_count; ++i)
-        if (occurs[i]) extend(all, {properties_of(static_cast<type>(i))});
+        if (occurs[i]) all.push_back(properties_of(static_cast<type>(i)));
     return all;
 }
 

@@ -252,10 +252,17 @@ std::vector<type_properties> legend_of(const M& m) {
 }
 
 /// Appends the properties of labels that the legend lacks.
+/// @throws invalid_input for a label that has other properties in the legend
 inline void extend(std::vector<type_properties>& legend, const std::vector<type_properties>& more) {
-    for (const type_properties& p : more)
-        if (std::none_of(legend.begin(), legend.end(), [&](const type_properties& q) { return q.label == p.label; }))
+    for (const type_properties& p : more) {
+        const auto same =
+            std::find_if(legend.begin(), legend.end(), [&](const type_properties& q) { return q.label == p.label; });
+        if (same == legend.end())
             legend.push_back(p);
+        else
+            insonify::detail::require(*same == p, "type_properties.label", index_of(p.label),
+                                      "a label that no other seabed of the scene has with other properties");
+    }
 }
 
 /// How deep a layer has to sink to disappear below another, metres: about as far as its surface strays from its mean

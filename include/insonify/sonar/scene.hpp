@@ -62,7 +62,8 @@ inline namespace INSONIFY_ONCE {
 INSONIFY_FUNCTION void validate(const scene& s);
 
 /// The material of each label: the scene's, or that of the seabed's model where the scene sets none.
-/// @throws invalid_input for a reflectivity of the seabed that is negative or not finite
+/// @throws invalid_input for a reflectivity of the seabed that is negative or not finite, or for a label of the library
+///         with other properties than the library's
 INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s);
 
 /// The same pose, lowered or raised so that one vertex touches the seabed and none is below it. `burial` then sinks it.
@@ -91,7 +92,10 @@ INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s) {
     for (const insonify::seabed::type_properties& t : s.seabed.legend()) {
         detail::require(t.reflectivity >= 0 && numeric::is_finite(t.reflectivity), "type_properties.reflectivity",
                         t.reflectivity, "0 or more, finite");
-        material& m = all[insonify::seabed::index_of(t.label)];
+        const std::size_t label = insonify::seabed::index_of(t.label);
+        detail::require(label >= insonify::seabed::first_own_label || t == insonify::seabed::properties_of(t.label),
+                        "type_properties.label", label, "own_type(n), as its properties are not the library's");
+        material& m = all[label];
         if (m.reflectivity == by_seabed_model) m = {t.reflectivity};
     }
     for (std::size_t i = 0; i < all.size(); ++i)

@@ -115,6 +115,9 @@ TEST_CASE("Pipes and folders are not replaced by files") {
     CHECK(fs::is_fifo(folder.path / "pipe"));
     CHECK_THROWS_WITH(in::write_file(folder.path.string(), "text"), ContainsSubstring("not a regular file"));
     CHECK_THROWS_WITH(in::write_file(folder / "a" + '\0' + "b", "text"), ContainsSubstring("a zero byte in its name"));
+    CHECK_THROWS_WITH(in::write_file("", "text"),
+                      ContainsSubstring("a file with an empty name: can't open for writing"));
+    CHECK_THROWS_WITH(in::read_file(""), ContainsSubstring("a file with an empty name: can't open for reading"));
     CHECK(folder.names() == std::set<std::string>{"pipe"});
 }
 

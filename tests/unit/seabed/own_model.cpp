@@ -117,6 +117,33 @@ TEST_CASE("The reflectivity of an own label scales the picture; the scene's entr
     CHECK_THROWS_WITH(mean(), ContainsSubstring("scene.bottom[64].reflectivity is -2"));
 }
 
+namespace {
+
+/// Level ground of any label and properties.
+struct painted {
+    sb::type_properties kind;
+    void row(const sb::scanline&, std::span<float> heights) const { std::fill(heights.begin(), heights.end(), 0.0f); }
+    sb::height_range range() const { return {0, 0}; }
+};
+
+}  // namespace
+
+TEST_CASE("A label has one set of properties in a scene, and those of the library's labels are the library's") {
+    in::scene s;
+    const auto draw = [&](const sb::any& bottom) {
+        s.seabed = bottom;
+        in::render(s, in::overhead{.size = {8, 8}});
+    };
+    const painted dim{{sb::own_type(0), "dim", 0.2f}}, bright{{sb::own_type(0), "bright", 0.9f}},
+        other{{sb::own_type(1), "bright", 0.9f}};
+    CHECK_NOTHROW(draw(sb::blend{.first = dim, .second = other}));
+    CHECK_NOTHROW(draw(sb::blend{.first = dim, .second = dim}));
+    CHECK_THROWS_WITH(draw(sb::blend{.first = dim, .second = bright}),
+                      ContainsSubstring("type_properties.label is 64"));
+    CHECK_THROWS_WITH(draw(painted{{sb::type::sand, "bright sand", 0.9f}}), ContainsSubstring("own_type(n)"));
+    CHECK_NOTHROW(draw(painted{sb::properties_of(sb::type::sand)}));
+}
+
 TEST_CASE("An own model of the same function gives the same bytes as the library's") {
     in::scene mine, theirs;
     theirs.seabed = sb::ripples{.seed = 5};

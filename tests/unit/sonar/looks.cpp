@@ -357,7 +357,9 @@ TEST_CASE("A tone lies abreast of each ping of a track, below the sonar's own he
     CHECK(flipped.image(3, 19) == toned.image(3, 0));
     track.pop_back();
     CHECK_THROWS_AS(in::with_tone(clean, track, rig, tone), in::invalid_input);
-    CHECK_THROWS_AS(in::with_tone(in::both_sides(clean, clean), track, rig, tone), in::invalid_input);
+    auto port = clean;
+    port.rows.side = in::side::port;
+    CHECK_THROWS_AS(in::with_tone(in::both_sides(port, clean), track, rig, tone), in::invalid_input);
 }
 
 TEST_CASE("with_tone() leaves the water column unchanged, does nothing when off, and is the same for any executor") {

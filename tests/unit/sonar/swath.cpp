@@ -18,6 +18,22 @@ TEST_CASE("mirrored(), turned() and beside() arrange pictures") {
     CHECK_THROWS_AS(in::beside(a, a, -1), in::invalid_input);
 }
 
+TEST_CASE("both_sides() takes a recording of each side, of the same pings in the same order") {
+    const in::scene s;
+    in::side_scan rig{.pings = 4, .bins = 16};
+    const auto starboard = in::render(s, rig);
+    rig.side = in::side::port;
+    const auto port = in::render(s, rig);
+    const auto both = in::both_sides(port, starboard);
+    CHECK(both.image.width() == 32);
+    CHECK_THROWS_WITH(in::both_sides(starboard, port), ContainsSubstring("port.rows.side"));
+    CHECK_THROWS_WITH(in::both_sides(port, port), ContainsSubstring("starboard.rows.side"));
+    CHECK_THROWS_WITH(in::both_sides(port, both), ContainsSubstring("starboard.rows.side"));
+    const auto overhead = in::render(s, in::overhead{.size = {16, 4}});
+    CHECK_THROWS_WITH(in::both_sides(port, overhead), ContainsSubstring("starboard.rows.side"));
+    CHECK_THROWS_WITH(in::both_sides(in::upside_down(port), starboard), ContainsSubstring("port.rows.first"));
+}
+
 TEST_CASE("The paper's stitched picture: two of its cameras back to back, shadows away from the gap, forward up") {
     in::scene s;
     s.seabed = in::seabed::flat{.surface = {.rms = 0}};

@@ -41,13 +41,13 @@ class dynamic_array {
     }
     INSONIFY_TAGGED ~dynamic_array() {
         shrink(0);
-        ::operator delete(data_);
+        deallocate(data_);
     }
 
     /// @throws std::bad_alloc
     INSONIFY_TAGGED void reserve(std::size_t count) {
         if (count <= capacity_) return;
-        T* const moved = static_cast<T*>(::operator new(array_bytes<T>(count)));
+        T* const moved = allocate(count);
         if constexpr (std::is_trivially_copyable_v<T>) {
             if (size_ > 0) std::memcpy(static_cast<void*>(moved), data_, size_ * sizeof(T));
         } else {
@@ -56,7 +56,7 @@ class dynamic_array {
                 data_[i].~T();
             }
         }
-        ::operator delete(data_);
+        deallocate(data_);
         data_ = moved;
         capacity_ = count;
     }
@@ -110,8 +110,21 @@ class dynamic_array {
     INSONIFY_MEMBER const T& back() const { return data_[size_ - 1]; }
 
   private:
-    static_assert(alignof(T) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);
     static_assert(std::is_nothrow_move_constructible_v<T>);
+
+    /// GLM's aligned types need more than the default alignment.
+    static constexpr bool is_overaligned = alignof(T) > __STDCPP_DEFAULT_NEW_ALIGNMENT__;
+    INSONIFY_MEMBER static T* allocate(std::size_t count) {
+        const std::size_t bytes = array_bytes<T>(count);
+        if constexpr (is_overaligned) return static_cast<T*>(::operator new (bytes, std::align_val_t{alignof(T)}));
+        return static_cast<T*>(::operator new(bytes));
+    }
+    INSONIFY_MEMBER static void deallocate(T* elements) {
+        if constexpr (is_overaligned)
+            ::operator delete (elements, std::align_val_t{alignof(T)});
+        else
+            ::operator delete(elements);
+    }
 
     /// At least doubles the capacity where it has to grow, so that appending takes constant time on average.
     INSONIFY_MEMBER void make_room(std::size_t count) {

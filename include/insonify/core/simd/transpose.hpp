@@ -13,6 +13,10 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
+/// Whether arrays of a vector of three values have no padding. GLM's aligned types have some.
+template <class Vector>
+inline constexpr bool is_packed = sizeof(Vector) == 3 * sizeof(std::declval<Vector&>().x);
+
 /// Gathers pairs of adjacent 32-bit values: lane k of `first` and of `second` are the two values at from(k).
 template <int N, class Lanes, class From>
 INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from) {
@@ -71,17 +75,6 @@ INSONIFY_INLINE void transpose_fours(lanes<float, N>* into, const lanes<float, N
         shuffle<N>(into[2 * k + 1], a, b, [](int i) { return i % 4 / 2 * N + i / 4 * 4 + i % 2 + 2; });
     });
 }
-
-/// Transposes four consecutive rows of three floats.
-INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const float* rows) {
-    lanes<float, 4> a, b, c;  // xyzx yzxy zxyz
-    load(a, rows), load(b, rows + 4), load(c, rows + 8);
-    const lanes<float, 4> xy = __builtin_shufflevector(b, c, 2, 5, 3, 6),
-                          yz = __builtin_shufflevector(a, b, 1, 4, 2, 5);
-    into[0] = __builtin_shufflevector(a, xy, 0, 3, 4, 5);
-    into[1] = __builtin_shufflevector(yz, xy, 0, 1, 6, 7);
-    into[2] = __builtin_shufflevector(yz, c, 2, 3, 4, 7);
-}
 #endif
 
 /// Transposes N rows of four floats: lane k of into[i] is rows(k)[i]; N is 1, 4, 8 or 16.
@@ -97,6 +90,27 @@ INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
 #endif
         std::memcpy(into, rows(0), 4 * sizeof(float));
 }
+
+#if INSONIFY_SIMD
+/// Transposes four consecutive rows of three floats.
+template <class Vector>
+INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const Vector* rows) {
+    if constexpr (!is_packed<Vector>) {
+        lanes<float, 4> padded[4];
+        transpose<4>(padded, [&](int k) { return &rows[k].x; });
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { into[i] = padded[i]; });
+        return;
+    }
+    lanes<float, 4> a, b, c;  // xyzx yzxy zxyz
+    const float* const values = &rows->x;
+    load(a, values), load(b, values + 4), load(c, values + 8);
+    const lanes<float, 4> xy = __builtin_shufflevector(b, c, 2, 5, 3, 6),
+                          yz = __builtin_shufflevector(a, b, 1, 4, 2, 5);
+    into[0] = __builtin_shufflevector(a, xy, 0, 3, 4, 5);
+    into[1] = __builtin_shufflevector(yz, xy, 0, 1, 6, 7);
+    into[2] = __builtin_shufflevector(yz, c, 2, 3, 4, 7);
+}
+#endif
 
 }  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI

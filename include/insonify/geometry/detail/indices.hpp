@@ -5,6 +5,7 @@
 #include <insonify/core/executor.hpp>
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/lanes.hpp>
+#include <insonify/core/simd/transpose.hpp>
 #include <insonify/geometry/mesh.hpp>
 
 #include <algorithm>
@@ -39,7 +40,10 @@ struct largest_index_kernel {
 inline std::optional<std::uint32_t> bad_index(std::span<const glm::uvec3> triangles, std::size_t vertices, isa level) {
     if (triangles.empty()) return std::nullopt;
     std::uint32_t largest = 0;
-    dispatch(largest_index_kernel{&triangles.front().x, 3 * triangles.size(), largest}, level);
+    if constexpr (is_packed<glm::uvec3>)
+        dispatch(largest_index_kernel{&triangles.front().x, 3 * triangles.size(), largest}, level);
+    else
+        for (const glm::uvec3& t : triangles) largest = (std::max)({largest, t.x, t.y, t.z});
     if (largest < vertices) return std::nullopt;
     for (const glm::uvec3& t : triangles)
         if ((std::max)({t.x, t.y, t.z}) >= vertices) return (std::max)({t.x, t.y, t.z});

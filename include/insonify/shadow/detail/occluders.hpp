@@ -89,7 +89,7 @@ struct plane_vertices_kernel {
         using namespace insonify::detail;
         using reals = lanes<double, 4>;
         lanes<float, 4> position[3], seen[4], rows[4];
-        transpose_threes(position, &positions[i].x);
+        transpose_threes(position, &positions[i]);
         reals p[3], bad{};
         for (int axis = 0; axis < 3; ++axis) convert(p[axis], position[axis]);
         unroll<3>([&](int row) INSONIFY_INLINE_LAMBDA {

@@ -62,9 +62,17 @@ image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill
 
 /// Joins a port and a starboard recording of one track, port to the left: range grows outwards from the middle, where
 /// the water column lies. The labels' bounding boxes and areas are those of both sides together.
-/// @throws invalid_input for recordings of different heights
+/// @throws invalid_input for recordings of different heights or pings, or that are not one of each side
 template <class Labels>
 frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboard) {
+    const auto require_side = [](const char* name, const ping_numbers& rows, side wanted) {
+        detail::require(rows.side == wanted && rows.port_columns == 0 && rows.step != 0, name,
+                        static_cast<int>(rows.side), "that of a recording of this side alone");
+    };
+    require_side("port.rows.side", port.rows, side::port);
+    require_side("starboard.rows.side", starboard.rows, side::starboard);
+    detail::require(port.rows.first == starboard.rows.first && port.rows.step == starboard.rows.step, "port.rows.first",
+                    port.rows.first, "that of the starboard recording, in the same order");
     frame<Labels> out;
     const auto join = [](auto& both, const auto& left, const auto& right) { both = beside(mirrored(left), right); };
     detail::for_each_image(join, out, port, starboard);
