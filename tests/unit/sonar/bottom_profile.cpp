@@ -172,9 +172,9 @@ TEST_CASE("A window that begins behind a step has the labels of the whole record
 
 TEST_CASE("A window close to the first return of a pitched ping holds that part of the whole recording") {
     const in::scene s = over(ground{[](double, double) { return 0.0f; }});
-    for (const float pitch : {0.6f, -0.9f}) {
+    for (const double pitch : {0.6, -0.9}) {
         const in::ping p{.position = {0, 0, 5}, .pitch = pitch};
-        const float first = 5 / std::cos(pitch) + 0.2f;
+        const auto first = static_cast<float>(5 / std::cos(pitch) + 0.2);
         const in::frame<in::labels> window = hear(s, p, first, first + 3, 60),
                                     whole = hear(s, p, first - 3, first + 3, 120);
         for (int b = 0; b < 60; ++b) {
@@ -260,4 +260,66 @@ TEST_CASE("Cells so small that the seabed would not fit into memory are refused"
     in::record_options<> options;
     options.cell = 1e-6;
     CHECK_THROWS_WITH(in::render(over(in::seabed::flat{}), rig, options), ContainsSubstring("seabed tiles"));
+}
+
+TEST_CASE("A ping pitched by the slope of the ground along the track hears what a level one hears on level ground") {
+    for (const double pitch : {0.2, -0.4}) {
+        // The ground, rotated about the sonar, is 5 m away. Pings as far apart as before are closer across the fan.
+        const double slope = std::tan(pitch), depth = 5 / std::cos(pitch);
+        const auto tilted = [=](double, double y) { return static_cast<float>(slope * y); };
+        const in::ping level{.position = {0, 0, 5}}, pitched{.position = {0, 0, depth}, .pitch = pitch};
+        const auto flat = hear(over(ground{[](double, double) { return 0.0f; }}), level, 0, 20, 100);
+        const auto same = hear(over(ground{tilted, -100, 100}), pitched, 0, 20, 100);
+        for (int b = 0; b < 100; ++b) {
+            CAPTURE(pitch, b);
+            const double expected = static_cast<double>(flat.image(b, 0)) * std::cos(pitch);
+            CHECK(same.image(b, 0) == Approx(expected).epsilon(0.02).margin(1e-5));
+        }
+    }
+}
+
+TEST_CASE("A crest in front of a window shades it, and a target in front of the crest has its name") {
+    const auto crest = [](double x, double) { return x > 9.3 && x < 9.9 ? 1.0f : 0.0f; };
+    in::scene s = over(ground{crest, 0, 1});
+    const in::ping p{.position = {0, 0, 5}};
+    for (const bool has_target : {false, true}) {
+        if (has_target) s.add(in::cube{.size = {0.5f, 4, 3}}, {.position = {8, 0, 1.5}}, "post");
+        const auto window = hear(s, p, 12.1f, 20, 79), whole = hear(s, p, 4.2f, 20, 158);
+        for (int b = 0; b < 79; ++b) {
+            CAPTURE(has_target, b);
+            CHECK(window.labels.shadow(b, 0) == whole.labels.shadow(79 + b, 0));
+            CHECK(window.image(b, 0) == Approx(whole.image(79 + b, 0)).epsilon(1e-3).margin(1e-6));
+        }
+        const int behind_crest = 4;  // 12.5 m away, 11.5 m across
+        CHECK(window.labels.shadow(behind_crest, 0) == (has_target ? 1 : in::labels::by_seabed));
+        CHECK(window.labels.shadow(20, 0) == (has_target ? 1 : in::labels::is_lit));  // 14.1 m away
+    }
+}
+
+TEST_CASE("A bin that shows a target is not in shadow") {
+    in::scene s = over(ground{[](double, double) { return 0.0f; }});
+    s.add(in::cube{.size = {0.5f, 4, 2}}, {.position = {8, 0, 1}}, "front");
+    s.add(in::cube{.size = {0.05f, 4, 3.2f}}, {.position = {10, 0, 1.6}}, "behind it");
+    const auto heard = hear(s, {.position = {0, 0, 5}}, 0, 20, 100);
+    int both = 0;
+    for (int b = 0; b < 100; ++b)
+        if (heard.labels.instance(b, 0) != 0) {
+            CHECK(heard.labels.shadow(b, 0) == in::labels::is_lit);
+            ++both;
+        }
+    CHECK(both > 5);
+    CHECK(dark_bins(heard) > 20);
+}
+
+TEST_CASE("Ground is lit where targets cover less than half of a ray") {
+    for (const double share : {0.3, 0.8}) {
+        // A wall of bars far above the ground, finer than the rays.
+        in::scene s = over(ground{[](double, double) { return 0.0f; }});
+        for (int i = 0; i < 60; ++i)
+            s.add(in::cube{.size = {0.01f, 4, static_cast<float>(0.04 * share)}}, {.position = {8, 0, 1 + 0.04 * i}},
+                  "bar");
+        const auto heard = hear(s, {.position = {0, 0, 5}}, 0, 20, 40, 0.5);
+        CAPTURE(share);
+        CHECK((dark_bins(heard) > 4) == (share > 0.5));
+    }
 }

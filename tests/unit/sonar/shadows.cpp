@@ -461,11 +461,11 @@ TEST_CASE("A camera that looks under the border of a heightfield sees its lower 
 namespace {
 
 /// The same triangles wound clockwise: an open mesh.
-in::mesh turned(in::mesh m) {
+in::mesh wound_clockwise(in::mesh m) {
     for (glm::uvec3& t : m.triangles) std::swap(t.y, t.z);
     return m;
 }
-in::frame<> alone(const in::mesh& m, const in::pose& where, const in::overhead& rig) {
+in::frame<> picture_of_one(const in::mesh& m, const in::pose& where, const in::overhead& rig) {
     in::scene s;
     s.seabed = in::seabed::none{};
     s.add(m, where, "mesh");
@@ -483,9 +483,9 @@ TEST_CASE("A camera within the box of a heightfield, but beside its outline, see
     in::overhead rig{.position = {3, 3}, .altitude = 4.5f, .size = {64, 64}, .grazing = 0.7f};
     rig.light_azimuth = -135_deg;
     CHECK(in::shared_mesh(diagonal).grid() != nullptr);
-    const auto seen = alone(diagonal, {}, rig);
+    const auto seen = picture_of_one(diagonal, {}, rig);
     CHECK(seen.labels.targets[0].area > 500);
-    CHECK(seen.labels.shadow == alone(turned(diagonal), {}, rig).labels.shadow);
+    CHECK(seen.labels.shadow == picture_of_one(wound_clockwise(diagonal), {}, rig).labels.shadow);
 
     // A vertex that no triangle uses extends the box.
     in::mesh steps{{{0, -1, 0}, {0, 1.5f, 0}, {1, -1, 3}, {1, 1.5f, 3}, {2, -1, 4}, {2, 1.5f, 4}, {5, 0, 0}},
@@ -495,7 +495,8 @@ TEST_CASE("A camera within the box of a heightfield, but beside its outline, see
     rig.position = {3, 0};
     rig.grazing = 61_deg;
     rig.light_azimuth = 180_deg;
-    CHECK(alone(steps, {}, rig).labels.shadow == alone(turned(steps), {}, rig).labels.shadow);
+    CHECK(picture_of_one(steps, {}, rig).labels.shadow ==
+          picture_of_one(wound_clockwise(steps), {}, rig).labels.shadow);
     steps.positions.pop_back();
     CHECK(in::shared_mesh(steps).kind() == in::surface_kind::heightfield);
 }
@@ -507,8 +508,8 @@ TEST_CASE("A closed mesh that the near plane cuts open is dark inside") {
     for (const double gap : {0.001, 0.01, 0.1}) {
         const in::pose beside{.position = {4 + gap, 0, 10}};
         CAPTURE(gap);
-        CHECK(alone(box, beside, rig).labels.shadow ==
-              alone(shadow_meshes::joined(box, far_below), beside, rig).labels.shadow);
+        CHECK(picture_of_one(box, beside, rig).labels.shadow ==
+              picture_of_one(shadow_meshes::joined(box, far_below), beside, rig).labels.shadow);
     }
 }
 
@@ -533,14 +534,14 @@ TEST_CASE("A target below a gap is shaded by seabed that is farther away than an
 TEST_CASE("A mesh far from its own origin is drawn where the same mesh around it is") {
     const in::overhead rig{.altitude = 10, .field_of_view = 0.5f, .size = {512, 512}, .grazing = 0.3f};
     const in::mesh box = in::to_mesh(in::cube{.size = glm::vec3(2)});
-    const auto near = alone(box, {.position = {0, 0, 1}, .yaw = 0.5f}, rig);
+    const auto near = picture_of_one(box, {.position = {0, 0, 1}, .yaw = 0.5f}, rig);
     for (const float away : {1000.0f, 100000.0f}) {  // metres, of which float holds the vertices exactly
         in::mesh moved = box;
         for (glm::vec3& p : moved.positions) p.x += away;
         const glm::dvec3 back{-std::cos(0.5) * static_cast<double>(away), -std::sin(0.5) * static_cast<double>(away),
                               1};
         CAPTURE(away);
-        CHECK(alone(moved, {.position = back, .yaw = 0.5f}, rig).labels.instance == near.labels.instance);
+        CHECK(picture_of_one(moved, {.position = back, .yaw = 0.5f}, rig).labels.instance == near.labels.instance);
     }
 }
 
