@@ -323,3 +323,23 @@ TEST_CASE("Ground is lit where targets cover less than half of a ray") {
         CHECK((dark_bins(heard) > 4) == (share > 0.5));
     }
 }
+
+TEST_CASE("The last bin holds what it holds in a recording that goes on") {
+    const in::scene s = over(ground{[](double, double) { return 0.0f; }});
+    const in::ping p{.position = {0, 0, 5}};
+    const auto ends = hear(s, p, 0, 20, 400, 0.2), goes_on = hear(s, p, 0, 24, 480, 0.2);
+    for (int b = 390; b < 400; ++b) {
+        CAPTURE(b);
+        CHECK(ends.image(b, 0) == Approx(goes_on.image(b, 0)).epsilon(0.01));
+    }
+}
+
+TEST_CASE("Of a plate above the sonar each side hears its half") {
+    const in::ping p{.position = {0, 0, 5}};
+    in::scene whole = over(ground{[](double, double) { return 0.0f; }}), half = whole;
+    whole.add(in::cube{.size = {4, 4, 0.2f}}, {.position = {0, 0, 8}}, "plate");
+    half.add(in::cube{.size = {2, 4, 0.2f}}, {.position = {1, 0, 8}}, "plate");
+    const double expected = target_energy(hear(half, p, 0, 10, 100));
+    CHECK(expected > 0.1);
+    CHECK(target_energy(hear(whole, p, 0, 10, 100)) == Approx(expected).epsilon(0.01));
+}
