@@ -6379,6 +6379,13 @@ inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
     return numeric::is_finite(point) ? merge(box, {point, point}) : box;
 }
 
+/// The smallest box, along the axes of the frame that `map` leads to, around a box.
+inline bounding_box transformed(const bounding_box& box, const affine& map) {
+    bounding_box around;
+    for (int i = 0; i < 8; ++i) around = include(around, transform_point(map, box.corner(i)));
+    return around;
+}
+
 /// The smallest box around all finite positions, including those that no triangle uses.
 template <executor_argument E = serial_executor>
 bounding_box bounds(const mesh_view& m, E&& ex = {}) {
@@ -11462,20 +11469,20 @@ class overhead_geometry {
 
     /// Pinhole projection with reversed depth, z / w = z_near / distance: larger is nearer.
     glm::vec4 clip(const glm::vec3& p) const {
-        return {p.x * clip_scale_.x, p.y * clip_scale_.y, 1e-3f * rig_.altitude, rig_.altitude - p.z};
+        return {p.x * clip_scale_.x, p.y * clip_scale_.y, near_plane * rig_.altitude, rig_.altitude - p.z};
     }
     /// The same for coordinates in SIMD lanes.
     template <class Floats>
     INSONIFY_INLINE void clip(Floats (&into)[4], const Floats* p) const {
         into[0] = p[0] * clip_scale_.x;
         into[1] = p[1] * clip_scale_.y;
-        into[2] = Floats{} + 1e-3f * rig_.altitude;
+        into[2] = Floats{} + near_plane * rig_.altitude;
         into[3] = rig_.altitude - p[2];
     }
 
     glm::dvec3 eye() const { return {0, 0, rig_.altitude}; }
     /// Height up to which everything is in front of the near plane, however `clip` is rounded.
-    double highest_drawn() const { return (1 - 2e-3) * static_cast<double>(rig_.altitude); }
+    double highest_drawn() const { return (1 - 2 * numeric::widened(near_plane)) * numeric::widened(rig_.altitude); }
     /// Metres per pixel, 1 m below the camera.
     double ray_step() const { return 2 * tangent_ / rig_.size.x; }
     /// Vector from the camera through a pixel's centre, to 1 m below it.
@@ -11491,6 +11498,8 @@ class overhead_geometry {
     }
 
   private:
+    static constexpr float near_plane = 1e-3f;  ///< distance from the camera, in altitudes
+
     overhead rig_;
     double tangent_;
     glm::vec2 clip_scale_;
@@ -17324,6 +17333,7 @@ struct surface_varyings {
     float height;
 };
 
+/// Whether a mesh of this box is much smaller than its coordinates.
 inline bool is_far_from_origin(const bounding_box& box) {
     if (box.empty()) return false;
     const glm::dvec3 size = box.size();
@@ -17915,9 +17925,7 @@ inline bool is_within_outline(const placed_mesh& m, const glm::dvec3& p) {
 /// leave its bounds above the surface. From beside it, a camera may see its lower side, under its border.
 inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh& m) {
     const view_from_object from(view, m.to_rig);
-    bool is_whole = true;  // in front of the near plane
-    for (int i = 0; i < 8; ++i)
-        is_whole = is_whole && transform_point(m.to_rig, m.box.corner(i)).z < view.highest_drawn();
+    const bool is_whole = transformed(m.box, m.to_rig).upper.z < view.highest_drawn();
     const auto is_outside = [&](const glm::dvec3& p) {
         bool outside = false;
         for (int i = 0; i < 3; ++i) outside = outside || p[i] < m.box.lower[i] || p[i] > m.box.upper[i];
@@ -18700,8 +18708,7 @@ class overhead_painter {
     double lowest_target() const {
         double lowest = std::numeric_limits<double>::infinity();
         for (const target& t : scene_.targets)
-            for (int corner = 0; corner < 8 && !t.shape.box().empty(); ++corner)
-                lowest = (std::min)(lowest, transform_point(to_world(t.placement), t.shape.box().corner(corner)).z);
+            lowest = (std::min)(lowest, transformed(t.shape.box(), to_world(t.placement)).lower.z);
         return lowest;
     }
 
@@ -18712,12 +18719,11 @@ class overhead_painter {
             low = (std::numeric_limits<double>::max)();
             top = -low;
         }
-        for (const drawn_object& t : targets())
-            for (int corner = 0; corner < 8 && !t.placed.box.empty(); ++corner) {
-                const double z = transform_point(t.placed.to_rig, t.placed.box.corner(corner)).z;
-                top = (std::max)(top, z);
-                if (bottom_.is_open()) low = (std::min)(low, z);
-            }
+        for (const drawn_object& t : targets()) {
+            const bounding_box box = transformed(t.placed.box, t.placed.to_rig);
+            top = (std::max)(top, box.upper.z);
+            if (bottom_.is_open()) low = (std::min)(low, box.lower.z);
+        }
         if (low > top) return {};
         const glm::dvec2 half = view_.half_extent(low);
         return {{-half, low}, {half, top}};

@@ -8,6 +8,7 @@
 #include <insonify/core/simd/lanes.hpp>
 #include <insonify/core/simd/transpose.hpp>
 #include <insonify/geometry/mesh.hpp>
+#include <insonify/geometry/transform.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -110,6 +111,13 @@ inline bounding_box merge(bounding_box a, const bounding_box& b) {
 /// The smallest box around a box and a point; a point with a NaN or infinite coordinate is skipped.
 inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
     return numeric::is_finite(point) ? merge(box, {point, point}) : box;
+}
+
+/// The smallest box, along the axes of the frame that `map` leads to, around a box.
+inline bounding_box transformed(const bounding_box& box, const affine& map) {
+    bounding_box around;
+    for (int i = 0; i < 8; ++i) around = include(around, transform_point(map, box.corner(i)));
+    return around;
 }
 
 /// The smallest box around all finite positions, including those that no triangle uses.

@@ -25,6 +25,8 @@ struct ground {
     in::seabed::height_range range() const { return {lowest, highest}; }
 };
 
+const ground sea_level{[](double, double) { return 0.0f; }};
+
 in::scene over(const in::seabed::any& seabed) {
     in::scene s;
     s.seabed = seabed;
@@ -171,7 +173,7 @@ TEST_CASE("A window that begins behind a step has the labels of the whole record
 }
 
 TEST_CASE("A window close to the first return of a pitched ping holds that part of the whole recording") {
-    const in::scene s = over(ground{[](double, double) { return 0.0f; }});
+    const in::scene s = over(sea_level);
     for (const double pitch : {0.6, -0.9}) {
         const in::ping p{.position = {0, 0, 5}, .pitch = pitch};
         const auto first = static_cast<float>(5 / std::cos(pitch) + 0.2);
@@ -268,7 +270,7 @@ TEST_CASE("A ping pitched by the slope of the ground along the track hears what 
         const double slope = std::tan(pitch), depth = 5 / std::cos(pitch);
         const auto tilted = [=](double, double y) { return static_cast<float>(slope * y); };
         const in::ping level{.position = {0, 0, 5}}, pitched{.position = {0, 0, depth}, .pitch = pitch};
-        const auto flat = hear(over(ground{[](double, double) { return 0.0f; }}), level, 0, 20, 100);
+        const auto flat = hear(over(sea_level), level, 0, 20, 100);
         const auto same = hear(over(ground{tilted, -100, 100}), pitched, 0, 20, 100);
         for (int b = 0; b < 100; ++b) {
             CAPTURE(pitch, b);
@@ -297,24 +299,24 @@ TEST_CASE("A crest in front of a window shades it, and a target in front of the 
 }
 
 TEST_CASE("A bin that shows a target is not in shadow") {
-    in::scene s = over(ground{[](double, double) { return 0.0f; }});
+    in::scene s = over(sea_level);
     s.add(in::cube{.size = {0.5f, 4, 2}}, {.position = {8, 0, 1}}, "front");
     s.add(in::cube{.size = {0.05f, 4, 3.2f}}, {.position = {10, 0, 1.6}}, "behind it");
     const auto heard = hear(s, {.position = {0, 0, 5}}, 0, 20, 100);
-    int both = 0;
+    int of_targets = 0;
     for (int b = 0; b < 100; ++b)
         if (heard.labels.instance(b, 0) != 0) {
             CHECK(heard.labels.shadow(b, 0) == in::labels::is_lit);
-            ++both;
+            ++of_targets;
         }
-    CHECK(both > 5);
+    CHECK(of_targets > 5);
     CHECK(dark_bins(heard) > 20);
 }
 
 TEST_CASE("Ground is lit where targets cover less than half of a ray") {
     for (const double share : {0.3, 0.8}) {
         // A wall of bars far above the ground, finer than the rays.
-        in::scene s = over(ground{[](double, double) { return 0.0f; }});
+        in::scene s = over(sea_level);
         for (int i = 0; i < 60; ++i)
             s.add(in::cube{.size = {0.01f, 4, static_cast<float>(0.04 * share)}}, {.position = {8, 0, 1 + 0.04 * i}},
                   "bar");
@@ -325,7 +327,7 @@ TEST_CASE("Ground is lit where targets cover less than half of a ray") {
 }
 
 TEST_CASE("The last bin holds what it holds in a recording that goes on") {
-    const in::scene s = over(ground{[](double, double) { return 0.0f; }});
+    const in::scene s = over(sea_level);
     const in::ping p{.position = {0, 0, 5}};
     const auto ends = hear(s, p, 0, 20, 400, 0.2), goes_on = hear(s, p, 0, 24, 480, 0.2);
     for (int b = 390; b < 400; ++b) {
@@ -336,7 +338,7 @@ TEST_CASE("The last bin holds what it holds in a recording that goes on") {
 
 TEST_CASE("Of a plate above the sonar each side hears its half") {
     const in::ping p{.position = {0, 0, 5}};
-    in::scene whole = over(ground{[](double, double) { return 0.0f; }}), half = whole;
+    in::scene whole = over(sea_level), half = whole;
     whole.add(in::cube{.size = {4, 4, 0.2f}}, {.position = {0, 0, 8}}, "plate");
     half.add(in::cube{.size = {2, 4, 0.2f}}, {.position = {1, 0, 8}}, "plate");
     const double expected = target_energy(hear(half, p, 0, 10, 100));

@@ -151,8 +151,7 @@ class overhead_painter {
     double lowest_target() const {
         double lowest = std::numeric_limits<double>::infinity();
         for (const target& t : scene_.targets)
-            for (int corner = 0; corner < 8 && !t.shape.box().empty(); ++corner)
-                lowest = (std::min)(lowest, transform_point(to_world(t.placement), t.shape.box().corner(corner)).z);
+            lowest = (std::min)(lowest, transformed(t.shape.box(), to_world(t.placement)).lower.z);
         return lowest;
     }
 
@@ -163,12 +162,11 @@ class overhead_painter {
             low = (std::numeric_limits<double>::max)();
             top = -low;
         }
-        for (const drawn_object& t : targets())
-            for (int corner = 0; corner < 8 && !t.placed.box.empty(); ++corner) {
-                const double z = transform_point(t.placed.to_rig, t.placed.box.corner(corner)).z;
-                top = (std::max)(top, z);
-                if (bottom_.is_open()) low = (std::min)(low, z);
-            }
+        for (const drawn_object& t : targets()) {
+            const bounding_box box = transformed(t.placed.box, t.placed.to_rig);
+            top = (std::max)(top, box.upper.z);
+            if (bottom_.is_open()) low = (std::min)(low, box.lower.z);
+        }
         if (low > top) return {};
         const glm::dvec2 half = view_.half_extent(low);
         return {{-half, low}, {half, top}};

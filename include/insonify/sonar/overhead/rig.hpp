@@ -116,20 +116,20 @@ class overhead_geometry {
 
     /// Pinhole projection with reversed depth, z / w = z_near / distance: larger is nearer.
     glm::vec4 clip(const glm::vec3& p) const {
-        return {p.x * clip_scale_.x, p.y * clip_scale_.y, 1e-3f * rig_.altitude, rig_.altitude - p.z};
+        return {p.x * clip_scale_.x, p.y * clip_scale_.y, near_plane * rig_.altitude, rig_.altitude - p.z};
     }
     /// The same for coordinates in SIMD lanes.
     template <class Floats>
     INSONIFY_INLINE void clip(Floats (&into)[4], const Floats* p) const {
         into[0] = p[0] * clip_scale_.x;
         into[1] = p[1] * clip_scale_.y;
-        into[2] = Floats{} + 1e-3f * rig_.altitude;
+        into[2] = Floats{} + near_plane * rig_.altitude;
         into[3] = rig_.altitude - p[2];
     }
 
     glm::dvec3 eye() const { return {0, 0, rig_.altitude}; }
     /// Height up to which everything is in front of the near plane, however `clip` is rounded.
-    double highest_drawn() const { return (1 - 2e-3) * static_cast<double>(rig_.altitude); }
+    double highest_drawn() const { return (1 - 2 * numeric::widened(near_plane)) * numeric::widened(rig_.altitude); }
     /// Metres per pixel, 1 m below the camera.
     double ray_step() const { return 2 * tangent_ / rig_.size.x; }
     /// Vector from the camera through a pixel's centre, to 1 m below it.
@@ -145,6 +145,8 @@ class overhead_geometry {
     }
 
   private:
+    static constexpr float near_plane = 1e-3f;  ///< distance from the camera, in altitudes
+
     overhead rig_;
     double tangent_;
     glm::vec2 clip_scale_;

@@ -29,9 +29,7 @@ inline bool is_within_outline(const placed_mesh& m, const glm::dvec3& p) {
 /// leave its bounds above the surface. From beside it, a camera may see its lower side, under its border.
 inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh& m) {
     const view_from_object from(view, m.to_rig);
-    bool is_whole = true;  // in front of the near plane
-    for (int i = 0; i < 8; ++i)
-        is_whole = is_whole && transform_point(m.to_rig, m.box.corner(i)).z < view.highest_drawn();
+    const bool is_whole = transformed(m.box, m.to_rig).upper.z < view.highest_drawn();
     const auto is_outside = [&](const glm::dvec3& p) {
         bool outside = false;
         for (int i = 0; i < 3; ++i) outside = outside || p[i] < m.box.lower[i] || p[i] > m.box.upper[i];

@@ -34,6 +34,7 @@ struct surface_varyings {
     float height;
 };
 
+/// Whether a mesh of this box is much smaller than its coordinates.
 inline bool is_far_from_origin(const bounding_box& box) {
     if (box.empty()) return false;
     const glm::dvec3 size = box.size();
