@@ -525,7 +525,7 @@ template <class Error>
     INSONIFY_THROW(error);
     std::terminate();
 #else
-    std::fprintf(stderr, "%s\n", error.what());
+    std::fputs(error.what(), stderr), std::fputs("\n", stderr);
     std::terminate();
 #endif
 }
