@@ -299,6 +299,22 @@ TEST_CASE("render() gives the same bytes for any number of threads, tile size an
     }
 }
 
+TEST_CASE("The light at a picture's edge does not depend on how far the ground is sampled beyond it") {
+    // Too gentle for shadows; `exact` samples the ground farther towards the light all the same.
+    in::scene s;
+    s.seabed = in::seabed::ripples{.wavelength = 0.8f, .steepness = 0.05f, .direction = 45_deg, .surface = {.rms = 0}};
+    for (const float azimuth : {0_deg, 90_deg, 180_deg, 270_deg}) {
+        const in::overhead rig{
+            .altitude = 8, .field_of_view = 30_deg, .size = {96, 64}, .grazing = 20_deg, .light_azimuth = azimuth};
+        const in::render_options<> options{.cell = 0.06, .subpixel_bits = 8};
+        const auto shaded = in::render(s, rig, options);
+        const auto bare = in::render(s, rig, options.with(in::shadow::none{}));
+        REQUIRE(std::ranges::count(shaded.labels.shadow.pixels(), in::labels::is_lit) == 96 * 64);
+        CHECK(shaded.stats.seabed_samples > bare.stats.seabed_samples);
+        CHECK(shaded.image == bare.image);
+    }
+}
+
 TEST_CASE("Without labels and shadows, neither is computed") {
     const in::scene s = cube_on_plane(0.3);
     const in::overhead rig{.altitude = 3, .size = {100, 100}};

@@ -51,12 +51,13 @@ class sampled_bottom {
                 E& ex) {
         seabed::grid grid{.origin = position, .spacing = spacing, .band_limited = true};
         const auto along = [&](int axis) {
-            const double first = static_cast<double>(numeric::floor_to_int(ground.lower[axis] / spacing + 1e-6));
-            const double count = 1 - static_cast<double>(numeric::floor_to_int(-ground.upper[axis] / spacing)) - first;
+            // A vertex more on each side, so that normals in view are not one-sided differences.
+            const double first = static_cast<double>(numeric::floor_to_int(ground.lower[axis] / spacing + 1e-6)) - 1;
+            const double count = 2 - static_cast<double>(numeric::floor_to_int(-ground.upper[axis] / spacing)) - first;
             require(count <= 1 << 20, "vertices of the seabed along an axis", count,
                     "at most 2^20; reduce `reach` or enlarge `cell`");
             first_[axis] = static_cast<int>(first);
-            return static_cast<int>((std::max)(2.0, count));
+            return static_cast<int>(count);
         };
         grid.width = along(0);
         grid.height = along(1);
