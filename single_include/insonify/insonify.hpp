@@ -567,6 +567,11 @@ template <arithmetic Number>
 void require(bool holds, std::string_view argument, Number value, std::string_view expected) {
     if (!holds) refuse(argument, value, expected);
 }
+/// For sizes that must agree: `require_equal("to.width()", to.width(), from.width(), "the width of the result")`.
+template <arithmetic Number>
+void require_equal(std::string_view argument, Number value, Number expected, std::string_view what) {
+    if (value != expected) refuse(argument, value, to_text(expected).append(", ").append(what));
+}
 
 }  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
@@ -978,8 +983,7 @@ class image {
           pixels_(area()) {
         T* to = pixels_.data();
         for (const auto& row : rows) {
-            detail::require(row.size() == static_cast<std::size_t>(width_), "row length", row.size(),
-                            "that of the first row");
+            detail::require_equal("row length", row.size(), static_cast<std::size_t>(width_), "that of the first row");
             to = std::copy(row.begin(), row.end(), to);
         }
     }
@@ -3369,8 +3373,8 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// @throws invalid_input for a map of another size than the area
 inline void check_size(const std::string& name, int width, int height, const pixel_area& area) {
-    require(width == area.width, "width of the map for " + name, width, "that of the image");
-    require(height == area.height, "height of the map for " + name, height, "that of the image");
+    require_equal("width of the map for " + name, width, area.width, "that of the image");
+    require_equal("height of the map for " + name, height, area.height, "that of the image");
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -4424,8 +4428,8 @@ struct histogram {
 
     /// @throws invalid_input for another number of bins
     INSONIFY_TAGGED histogram& operator+=(const histogram& other) {
-        detail::require(other.counts.size() == counts.size(), "bin count of the added histogram", other.counts.size(),
-                        "that of the sum");
+        detail::require_equal("bin count of the added histogram", other.counts.size(), counts.size(),
+                              "that of the sum");
         for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
         return *this;
     }
@@ -4768,8 +4772,8 @@ class match_histogram {
     INSONIFY_TAGGED explicit match_histogram(distribution reference) {
         detail::require(reference.total() > 0, "number of finite pixels in the reference", reference.total(),
                         "1 or more");
-        detail::require(reference.values.size() == reference.cumulative.size(), "reference.values.size()",
-                        reference.values.size(), "that of cumulative");
+        detail::require_equal("reference.values.size()", reference.values.size(), reference.cumulative.size(),
+                              "that of cumulative");
         for (std::size_t i = 0; i < reference.values.size(); ++i) {
             const float value = reference.values[i];
             detail::require(numeric::is_finite(value) && (i == 0 || reference.values[i - 1] < value),
@@ -5223,8 +5227,8 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, into_ima
 template <class Source, class Pass, class E, class To>
 void run_stages(const Source& source, const Pass& pass, const run_context<E, into_view<To>>& run) {
     const image_view<To> target = run.sink.target;
-    require(source.width() == target.width(), "to.width()", target.width(), "that of the result");
-    require(source.height() == target.height(), "to.height()", target.height(), "that of the result");
+    require_equal("to.width()", target.width(), source.width(), "that of the result");
+    require_equal("to.height()", target.height(), source.height(), "that of the result");
     run_pass(read_only(source), target, pass, run.ex, run.origin);
 }
 template <class Source, class Pass, class E, class Sink, class F, class... Rest>
@@ -6106,6 +6110,7 @@ INSONIFY_FUNCTION mesh to_mesh(const cone& shape) {
     detail::require_positive("cone.height", shape.height);
     detail::require(numeric::is_finite(shape.top_radius) && shape.top_radius >= 0, "cone.top_radius", shape.top_radius,
                     "finite and at least 0");
+    detail::require_range("cone.segments", shape.segments, 3, 1 << 20, "3 to 2^20");
     const auto radius = static_cast<double>(shape.radius);
     const auto height = static_cast<double>(shape.height);
     const auto top = static_cast<double>(shape.top_radius);
@@ -6231,6 +6236,7 @@ INSONIFY_FUNCTION mesh to_mesh(const capsule& shape);
 INSONIFY_FUNCTION mesh to_mesh(const cylinder& shape) {
     detail::require_positive("cylinder.radius", shape.radius);
     detail::require_positive("cylinder.length", shape.length);
+    detail::require_range("cylinder.segments", shape.segments, 3, 1 << 20, "3 to 2^20");
     const auto radius = static_cast<double>(shape.radius);
     const double half = 0.5 * static_cast<double>(shape.length);
     const std::array<outline_point, 6> outline = {{{0, -half, 0, -1},
@@ -8255,8 +8261,10 @@ namespace detail::inline INSONIFY_FLAGS {
 using insonify::detail::dynamic_array;
 using insonify::detail::refuse;
 using insonify::detail::require;
+using insonify::detail::require_equal;
 using insonify::detail::require_fraction;
 using insonify::detail::require_range;
+using insonify::detail::to_text;
 
 template <std::floating_point Number>
 void require_metres(std::string_view name, Number value) {
@@ -8328,8 +8336,9 @@ inline void require_within(const height_range& stated, double lowest, double hig
     const height_range range = with_rounding(stated);
     if (lowest > highest) return;
     const double farthest = lowest < range.lowest ? lowest : highest;
-    require(lowest >= range.lowest && highest <= range.highest, "a height of the seabed", farthest,
-            "heights within its range()");
+    if (!(lowest >= range.lowest && highest <= range.highest))
+        refuse("a height of the seabed", farthest,
+               "heights within its range(), " + to_text(stated.lowest) + " to " + to_text(stated.highest));
 }
 
 template <class S>
@@ -10405,8 +10414,8 @@ class light_frame {
     explicit light_frame(const directional_light& light) {
         insonify::detail::require(
             light.elevation >= directional_light::lowest_elevation && light.elevation <= numeric::pi / 2 + 1e-7,
-            "elevation", light.elevation, "10^-9 to pi / 2");
-        insonify::detail::require_angle("azimuth", light.azimuth);
+            "directional_light.elevation", light.elevation, "10^-9 to pi / 2");
+        insonify::detail::require_angle("directional_light.azimuth", light.azimuth);
         const auto [sin_azimuth, cos_azimuth] = numeric::sin_cos(light.azimuth);
         const auto [sin_elevation, cosine] = numeric::sin_cos(light.elevation);
         const double cos_elevation = (std::max)(cosine, 0.0);  // floats near pi / 2 are beyond the zenith
@@ -11085,9 +11094,11 @@ struct class_map {
 inline namespace INSONIFY_ONCE {
 
 /// 255 where a target is visible, 0 elsewhere.
+/// @param instance  number of the target, from 1; 0 gives the pixels that show none
 INSONIFY_FUNCTION image<std::uint8_t> target_mask(const labels& l, std::uint16_t instance);
 
 /// 255 where the seabed is in a target's shadow, 0 elsewhere, on the target itself too.
+/// @param instance  number of the target, from 1; 0 gives the seabed that is lit
 INSONIFY_FUNCTION image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance);
 
 /// The class of every pixel that shows a target.
@@ -11177,13 +11188,14 @@ struct ping {
 
 inline namespace INSONIFY_FLAGS {
 
+/// @param name  of the ping in an error
 /// @throws invalid_input for a value out of range
-inline void validate(const ping& p) {
-    detail::require_finite("ping.position", p.position);
-    detail::require_angle("ping.yaw", p.yaw);
-    detail::require(numeric::abs(p.pitch) <= numeric::to_radians(80), "ping.pitch", p.pitch,
+inline void validate(const ping& p, const std::string& name = "ping") {
+    detail::require_finite(name + ".position", p.position);
+    detail::require_angle(name + ".yaw", p.yaw);
+    detail::require(numeric::abs(p.pitch) <= numeric::to_radians(80), name + ".pitch", p.pitch,
                     "at most 80 degrees, in radians");
-    detail::require_angle("ping.roll", p.roll);
+    detail::require_angle(name + ".roll", p.roll);
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -14590,10 +14602,9 @@ template <vertex_shader VertexShader, class FragmentShader, class Pixel, depth_p
 draw_stats draw(const mesh_view& m, const VertexShader& vertex_shader, const FragmentShader& shader,
                 const framebuffer<Pixel>& target, const draw_options<Depth>& options = {}, E&& ex = {}) {
     if constexpr (requires { target.color; }) {
-        detail::require(target.color.width() == target.depth.width(), "color width", target.color.width(),
-                        "the depth image's");
-        detail::require(target.color.height() == target.depth.height(), "color height", target.color.height(),
-                        "the depth image's");
+        constexpr std::string_view what = "that of the depth image";
+        detail::require_equal("target.color.width()", target.color.width(), target.depth.width(), what);
+        detail::require_equal("target.color.height()", target.color.height(), target.depth.height(), what);
     }
     const auto shade = [&](const auto& triangles, auto& tile, float sign) {
         const rect& pixels = triangles.pixels;
@@ -17085,10 +17096,11 @@ inline namespace INSONIFY_FLAGS {
 inline void validate(const heightfield& h) {
     detail::require(h.heights.width() >= 2, "heightfield.heights.width()", h.heights.width(), "at least 2");
     detail::require(h.heights.height() >= 2, "heightfield.heights.height()", h.heights.height(), "at least 2");
-    detail::require(h.types.empty() || h.types.width() == h.heights.width(), "heightfield.types.width()",
-                    h.types.width(), "that of the heights, or no types at all");
-    detail::require(h.types.empty() || h.types.height() == h.heights.height(), "heightfield.types.height()",
-                    h.types.height(), "that of the heights, or no types at all");
+    if (!h.types.empty()) {
+        constexpr std::string_view what = "that of the heights, or no types at all";
+        detail::require_equal("heightfield.types.width()", h.types.width(), h.heights.width(), what);
+        detail::require_equal("heightfield.types.height()", h.types.height(), h.heights.height(), what);
+    }
     detail::require_positive_metres("heightfield.spacing", h.spacing);
     detail::require_position("heightfield.origin", h.origin);
 }
@@ -18878,8 +18890,8 @@ namespace detail::inline INSONIFY_FLAGS {
 
 template <class T>
 void require_same_size(image_view<const T> result, image_view<const T> truth) {
-    require(result.width() == truth.width(), "result.width()", result.width(), "the width of the truth");
-    require(result.height() == truth.height(), "result.height()", result.height(), "the height of the truth");
+    require_equal("result.width()", result.width(), truth.width(), "the width of the truth");
+    require_equal("result.height()", result.height(), truth.height(), "the height of the truth");
 }
 
 template <class T>
@@ -22168,8 +22180,7 @@ class csv_table {
     /// @throws invalid_input if there isn't one cell for each column
     template <csv_cell... Cells>
     void add(const Cells&... cells) {
-        detail::require(sizeof...(cells) == columns_, "number of cells in a row", sizeof...(cells),
-                        detail::to_text(columns_) + ", one for each column");
+        detail::require_equal("number of cells in a row", sizeof...(cells), columns_, "one for each column");
         std::string line;  // whole before it is added, should memory run out
         std::size_t index = 0;
         (append(line, cells, index++), ...);
@@ -22700,7 +22711,6 @@ inline grid_soundings read_soundings(survey_reader& in, double spacing, float sc
 
 /// Refuses soundings that make no grid of a useful size.
 inline void require_extent(const survey_reader& in, const grid_soundings& s, double spacing) {
-    using insonify::detail::to_text;
     if (s.all.empty()) in.fail("there are no soundings");
     const double vertices = static_cast<double>(s.width()) * static_cast<double>(s.height());
     const auto count = static_cast<double>(s.all.size());
@@ -24781,9 +24791,9 @@ template <across_track Axis, class Labels = labels, backscatter_law Law = lamber
 render_stats record_into(image_view<float> into, const scene& s, std::span<const ping> track,
                          const side_scan_rig<Axis>& rig, const record_options<Labels, Law, Equation>& options = {},
                          E&& ex = {}) {
-    detail::require(into.width() == rig.bins, "into.width()", into.width(), "that of the rig's bins");
-    detail::require(static_cast<std::size_t>(into.height()) == track.size(), "into.height()", into.height(),
-                    "that of the pings");
+    detail::require_equal("into.width()", into.width(), rig.bins, "the number of bins");
+    detail::require_equal("into.height()", static_cast<std::size_t>(into.height()), track.size(),
+                          "the number of pings");
     const auto recorded = record(s, track, rig, options.without_labels(), ex);
     for (int y = 0; y < into.height(); ++y)
         std::copy(recorded.image.row(y).begin(), recorded.image.row(y).end(), into.row(y).begin());
@@ -26310,7 +26320,7 @@ class recorder {
              const erased_options<Labels, Law>& options, executor_ref ex)
         : scene_(s), track_(track), window_(window), options_(options), equation_(options.equation) {
         materials_ = checked_materials(s, options);
-        for (const ping& p : track) validate(p);
+        for (std::size_t i = 0; i < track.size(); ++i) validate(track[i], "track[" + to_text(i) + "]");
         require(equation_.pulse_length() <= window.bins * window.bin(), "pulse.length", equation_.pulse_length(),
                 "at most the metres of range that are recorded");
         out_.rows.side = window.looks;
@@ -26542,7 +26552,7 @@ frame<Labels> upside_down(frame<Labels> r) {
 /// @throws invalid_input for pictures of different heights, a negative gap or one that leaves no room for the columns
 template <class T>
 image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill = T{}) {
-    detail::require(left.height() == right.height(), "right.height()", right.height(), "that of the left picture");
+    detail::require_equal("right.height()", right.height(), left.height(), "the height of the left picture");
     const std::int64_t widest = (std::numeric_limits<int>::max)() - std::int64_t{left.width()} - right.width();
     detail::require_range("gap", std::int64_t{gap}, 0, widest, "0 to 2^31 - 1, with both pictures");
     image<T> out(left.width() + gap + right.width(), left.height(), fill);
@@ -26564,8 +26574,8 @@ frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboa
     };
     require_side("port.rows.side", port.rows, side::port);
     require_side("starboard.rows.side", starboard.rows, side::starboard);
-    detail::require(port.rows.first == starboard.rows.first && port.rows.step == starboard.rows.step, "port.rows.first",
-                    port.rows.first, "that of the starboard recording, in the same order");
+    detail::require_equal("port.rows.first", port.rows.first, starboard.rows.first, "that of the starboard recording");
+    detail::require_equal("port.rows.step", port.rows.step, starboard.rows.step, "that of the starboard recording");
     frame<Labels> out;
     const auto join = [](auto& both, const auto& left, const auto& right) { both = beside(mirrored(left), right); };
     detail::for_each_image(join, out, port, starboard);
@@ -26828,8 +26838,8 @@ namespace detail::inline INSONIFY_ONCE {
 
 INSONIFY_FUNCTION image<float> speckled(image_view<const float> mean, image_view<const std::uint8_t> types,
                                         const seabed_speckle& s, const ping_numbers& numbers, executor_ref ex) {
-    require(types.width() == mean.width(), "types.width()", types.width(), "that of the intensities");
-    require(types.height() == mean.height(), "types.height()", types.height(), "that of the intensities");
+    require_equal("types.width()", types.width(), mean.width(), "that of the intensities");
+    require_equal("types.height()", types.height(), mean.height(), "that of the intensities");
     require(numbers.step == 1 || numbers.step == -1, "ping_numbers.step", numbers.step, "1 or -1");
     constexpr std::int64_t farthest = std::int64_t{1} << 61;
     require_range("ping_numbers.first", numbers.first, -farthest, farthest, "within 2^61");
@@ -27032,15 +27042,17 @@ class tone_sampler {
 template <across_track Axis, class PingAt>
 void apply_tone(frame<labels>& r, const PingAt& ping_at, const side_scan_rig<Axis>& rig, const bottom_tone& tone,
                 executor_ref ex) {
-    require(r.image.width() == rig.bins, "rig.bins", rig.bins, "the recording's width");
+    require_equal("rig.bins", rig.bins, r.image.width(), "the recording's width");
     const bool are_labelled =
         r.labels.seabed.width() == r.image.width() && r.labels.seabed.height() == r.image.height();
     require(are_labelled, "labels.seabed.size()", r.labels.seabed.size(), "that of the image");
     for (int y = 0; y < r.image.height(); ++y) {
-        const ping at = ping_at(r.rows.first + std::int64_t{r.rows.step} * y);
-        validate(at);
-        require_range("ping.position.x", at.position.x, -1e12, 1e12, "within 10^12 metres");
-        require_range("ping.position.y", at.position.y, -1e12, 1e12, "within 10^12 metres");
+        const std::int64_t number = r.rows.first + std::int64_t{r.rows.step} * y;
+        const ping at = ping_at(number);
+        const std::string name = "track[" + to_text(number) + "]";
+        validate(at, name);
+        require_range(name + ".position.x", at.position.x, -1e12, 1e12, "within 10^12 metres");
+        require_range(name + ".position.y", at.position.y, -1e12, 1e12, "within 10^12 metres");
     }
     const tone_sampler level(tone);
     if (tone.is_none()) return;
@@ -27668,7 +27680,7 @@ frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from,
                               std::span<const double> altitudes = {}) {
     validate(from), validate(to);
     const int rows = slant.image.height(), bins = slant.image.width();
-    detail::require(bins == from.bins, "from.bins", from.bins, "the recording's width");
+    detail::require_equal("from.bins", from.bins, bins, "the recording's width");
     detail::require(altitudes.empty() || altitudes.size() == static_cast<std::size_t>(rows), "altitudes.size()",
                     altitudes.size(), "0 or one per row");
     for (const double altitude : altitudes) detail::require_finite("altitudes", altitude);

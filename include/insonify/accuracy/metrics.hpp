@@ -66,8 +66,8 @@ namespace detail::inline INSONIFY_FLAGS {
 
 template <class T>
 void require_same_size(image_view<const T> result, image_view<const T> truth) {
-    require(result.width() == truth.width(), "result.width()", result.width(), "the width of the truth");
-    require(result.height() == truth.height(), "result.height()", result.height(), "the height of the truth");
+    require_equal("result.width()", result.width(), truth.width(), "the width of the truth");
+    require_equal("result.height()", result.height(), truth.height(), "the height of the truth");
 }
 
 template <class T>

@@ -80,6 +80,11 @@ template <arithmetic Number>
 void require(bool holds, std::string_view argument, Number value, std::string_view expected) {
     if (!holds) refuse(argument, value, expected);
 }
+/// For sizes that must agree: `require_equal("to.width()", to.width(), from.width(), "the width of the result")`.
+template <arithmetic Number>
+void require_equal(std::string_view argument, Number value, Number expected, std::string_view what) {
+    if (value != expected) refuse(argument, value, to_text(expected).append(", ").append(what));
+}
 
 }  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI

@@ -47,8 +47,7 @@ class image {
           pixels_(area()) {
         T* to = pixels_.data();
         for (const auto& row : rows) {
-            detail::require(row.size() == static_cast<std::size_t>(width_), "row length", row.size(),
-                            "that of the first row");
+            detail::require_equal("row length", row.size(), static_cast<std::size_t>(width_), "that of the first row");
             to = std::copy(row.begin(), row.end(), to);
         }
     }

@@ -37,8 +37,8 @@ struct histogram {
 
     /// @throws invalid_input for another number of bins
     INSONIFY_TAGGED histogram& operator+=(const histogram& other) {
-        detail::require(other.counts.size() == counts.size(), "bin count of the added histogram", other.counts.size(),
-                        "that of the sum");
+        detail::require_equal("bin count of the added histogram", other.counts.size(), counts.size(),
+                              "that of the sum");
         for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
         return *this;
     }

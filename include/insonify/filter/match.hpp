@@ -189,8 +189,8 @@ class match_histogram {
     INSONIFY_TAGGED explicit match_histogram(distribution reference) {
         detail::require(reference.total() > 0, "number of finite pixels in the reference", reference.total(),
                         "1 or more");
-        detail::require(reference.values.size() == reference.cumulative.size(), "reference.values.size()",
-                        reference.values.size(), "that of cumulative");
+        detail::require_equal("reference.values.size()", reference.values.size(), reference.cumulative.size(),
+                              "that of cumulative");
         for (std::size_t i = 0; i < reference.values.size(); ++i) {
             const float value = reference.values[i];
             detail::require(numeric::is_finite(value) && (i == 0 || reference.values[i - 1] < value),

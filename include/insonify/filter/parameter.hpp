@@ -21,8 +21,8 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// @throws invalid_input for a map of another size than the area
 inline void check_size(const std::string& name, int width, int height, const pixel_area& area) {
-    require(width == area.width, "width of the map for " + name, width, "that of the image");
-    require(height == area.height, "height of the map for " + name, height, "that of the image");
+    require_equal("width of the map for " + name, width, area.width, "that of the image");
+    require_equal("height of the map for " + name, height, area.height, "that of the image");
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS

@@ -43,8 +43,7 @@ class csv_table {
     /// @throws invalid_input if there isn't one cell for each column
     template <csv_cell... Cells>
     void add(const Cells&... cells) {
-        detail::require(sizeof...(cells) == columns_, "number of cells in a row", sizeof...(cells),
-                        detail::to_text(columns_) + ", one for each column");
+        detail::require_equal("number of cells in a row", sizeof...(cells), columns_, "one for each column");
         std::string line;  // whole before it is added, should memory run out
         std::size_t index = 0;
         (append(line, cells, index++), ...);

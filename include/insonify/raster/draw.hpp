@@ -102,10 +102,9 @@ template <vertex_shader VertexShader, class FragmentShader, class Pixel, depth_p
 draw_stats draw(const mesh_view& m, const VertexShader& vertex_shader, const FragmentShader& shader,
                 const framebuffer<Pixel>& target, const draw_options<Depth>& options = {}, E&& ex = {}) {
     if constexpr (requires { target.color; }) {
-        detail::require(target.color.width() == target.depth.width(), "color width", target.color.width(),
-                        "the depth image's");
-        detail::require(target.color.height() == target.depth.height(), "color height", target.color.height(),
-                        "the depth image's");
+        constexpr std::string_view what = "that of the depth image";
+        detail::require_equal("target.color.width()", target.color.width(), target.depth.width(), what);
+        detail::require_equal("target.color.height()", target.color.height(), target.depth.height(), what);
     }
     const auto shade = [&](const auto& triangles, auto& tile, float sign) {
         const rect& pixels = triangles.pixels;

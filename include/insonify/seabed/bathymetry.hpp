@@ -128,7 +128,6 @@ inline grid_soundings read_soundings(survey_reader& in, double spacing, float sc
 
 /// Refuses soundings that make no grid of a useful size.
 inline void require_extent(const survey_reader& in, const grid_soundings& s, double spacing) {
-    using insonify::detail::to_text;
     if (s.all.empty()) in.fail("there are no soundings");
     const double vertices = static_cast<double>(s.width()) * static_cast<double>(s.height());
     const auto count = static_cast<double>(s.all.size());

@@ -115,10 +115,11 @@ inline namespace INSONIFY_FLAGS {
 inline void validate(const heightfield& h) {
     detail::require(h.heights.width() >= 2, "heightfield.heights.width()", h.heights.width(), "at least 2");
     detail::require(h.heights.height() >= 2, "heightfield.heights.height()", h.heights.height(), "at least 2");
-    detail::require(h.types.empty() || h.types.width() == h.heights.width(), "heightfield.types.width()",
-                    h.types.width(), "that of the heights, or no types at all");
-    detail::require(h.types.empty() || h.types.height() == h.heights.height(), "heightfield.types.height()",
-                    h.types.height(), "that of the heights, or no types at all");
+    if (!h.types.empty()) {
+        constexpr std::string_view what = "that of the heights, or no types at all";
+        detail::require_equal("heightfield.types.width()", h.types.width(), h.heights.width(), what);
+        detail::require_equal("heightfield.types.height()", h.types.height(), h.heights.height(), what);
+    }
     detail::require_positive_metres("heightfield.spacing", h.spacing);
     detail::require_position("heightfield.origin", h.origin);
 }

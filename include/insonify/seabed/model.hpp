@@ -121,8 +121,10 @@ namespace detail::inline INSONIFY_FLAGS {
 using insonify::detail::dynamic_array;
 using insonify::detail::refuse;
 using insonify::detail::require;
+using insonify::detail::require_equal;
 using insonify::detail::require_fraction;
 using insonify::detail::require_range;
+using insonify::detail::to_text;
 
 template <std::floating_point Number>
 void require_metres(std::string_view name, Number value) {
@@ -194,8 +196,9 @@ inline void require_within(const height_range& stated, double lowest, double hig
     const height_range range = with_rounding(stated);
     if (lowest > highest) return;
     const double farthest = lowest < range.lowest ? lowest : highest;
-    require(lowest >= range.lowest && highest <= range.highest, "a height of the seabed", farthest,
-            "heights within its range()");
+    if (!(lowest >= range.lowest && highest <= range.highest))
+        refuse("a height of the seabed", farthest,
+               "heights within its range(), " + to_text(stated.lowest) + " to " + to_text(stated.highest));
 }
 
 template <class S>

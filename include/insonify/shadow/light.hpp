@@ -47,8 +47,8 @@ class light_frame {
     explicit light_frame(const directional_light& light) {
         insonify::detail::require(
             light.elevation >= directional_light::lowest_elevation && light.elevation <= numeric::pi / 2 + 1e-7,
-            "elevation", light.elevation, "10^-9 to pi / 2");
-        insonify::detail::require_angle("azimuth", light.azimuth);
+            "directional_light.elevation", light.elevation, "10^-9 to pi / 2");
+        insonify::detail::require_angle("directional_light.azimuth", light.azimuth);
         const auto [sin_azimuth, cos_azimuth] = numeric::sin_cos(light.azimuth);
         const auto [sin_elevation, cosine] = numeric::sin_cos(light.elevation);
         const double cos_elevation = (std::max)(cosine, 0.0);  // floats near pi / 2 are beyond the zenith

@@ -10,6 +10,8 @@
 #include <insonify/sonar/detail/smooth_noise.hpp>
 #include <insonify/sonar/speckle.hpp>
 
+#include <string>
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
@@ -105,15 +107,17 @@ class tone_sampler {
 template <across_track Axis, class PingAt>
 void apply_tone(frame<labels>& r, const PingAt& ping_at, const side_scan_rig<Axis>& rig, const bottom_tone& tone,
                 executor_ref ex) {
-    require(r.image.width() == rig.bins, "rig.bins", rig.bins, "the recording's width");
+    require_equal("rig.bins", rig.bins, r.image.width(), "the recording's width");
     const bool are_labelled =
         r.labels.seabed.width() == r.image.width() && r.labels.seabed.height() == r.image.height();
     require(are_labelled, "labels.seabed.size()", r.labels.seabed.size(), "that of the image");
     for (int y = 0; y < r.image.height(); ++y) {
-        const ping at = ping_at(r.rows.first + std::int64_t{r.rows.step} * y);
-        validate(at);
-        require_range("ping.position.x", at.position.x, -1e12, 1e12, "within 10^12 metres");
-        require_range("ping.position.y", at.position.y, -1e12, 1e12, "within 10^12 metres");
+        const std::int64_t number = r.rows.first + std::int64_t{r.rows.step} * y;
+        const ping at = ping_at(number);
+        const std::string name = "track[" + to_text(number) + "]";
+        validate(at, name);
+        require_range(name + ".position.x", at.position.x, -1e12, 1e12, "within 10^12 metres");
+        require_range(name + ".position.y", at.position.y, -1e12, 1e12, "within 10^12 metres");
     }
     const tone_sampler level(tone);
     if (tone.is_none()) return;

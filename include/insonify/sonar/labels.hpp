@@ -82,9 +82,11 @@ struct class_map {
 inline namespace INSONIFY_ONCE {
 
 /// 255 where a target is visible, 0 elsewhere.
+/// @param instance  number of the target, from 1; 0 gives the pixels that show none
 INSONIFY_FUNCTION image<std::uint8_t> target_mask(const labels& l, std::uint16_t instance);
 
 /// 255 where the seabed is in a target's shadow, 0 elsewhere, on the target itself too.
+/// @param instance  number of the target, from 1; 0 gives the seabed that is lit
 INSONIFY_FUNCTION image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance);
 
 /// The class of every pixel that shows a target.

@@ -87,8 +87,8 @@ namespace detail::inline INSONIFY_ONCE {
 
 INSONIFY_FUNCTION image<float> speckled(image_view<const float> mean, image_view<const std::uint8_t> types,
                                         const seabed_speckle& s, const ping_numbers& numbers, executor_ref ex) {
-    require(types.width() == mean.width(), "types.width()", types.width(), "that of the intensities");
-    require(types.height() == mean.height(), "types.height()", types.height(), "that of the intensities");
+    require_equal("types.width()", types.width(), mean.width(), "that of the intensities");
+    require_equal("types.height()", types.height(), mean.height(), "that of the intensities");
     require(numbers.step == 1 || numbers.step == -1, "ping_numbers.step", numbers.step, "1 or -1");
     constexpr std::int64_t farthest = std::int64_t{1} << 61;
     require_range("ping_numbers.first", numbers.first, -farthest, farthest, "within 2^61");

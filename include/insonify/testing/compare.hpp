@@ -122,10 +122,8 @@ picture_comparison compare_pictures(const image<Pixel>& found, const image<Pixel
 /// @throws invalid_input if the sizes differ
 template <storable_pixel Pixel>
 image<rgb8> difference_picture(const image<Pixel>& found, const image<Pixel>& expected) {
-    detail::require(found.width() == expected.width(), "width of the picture", found.width(),
-                    "that of the expected one");
-    detail::require(found.height() == expected.height(), "height of the picture", found.height(),
-                    "that of the expected one");
+    detail::require_equal("width of the picture", found.width(), expected.width(), "that of the expected one");
+    detail::require_equal("height of the picture", found.height(), expected.height(), "that of the expected one");
     const auto mean = [](const Pixel& p) {
         double sum = 0;
         for (int c = 0; c < detail::channels_of<Pixel>::count; ++c) sum += detail::channels_of<Pixel>::at(p, c);

@@ -22,6 +22,9 @@ TEST_CASE("An error names the argument, its value in the fewest digits, and what
     CHECK_NOTHROW(in::detail::require(true, "variance", 0.1, "at least 0"));
     CHECK_THROWS_WITH(in::detail::require(false, "variance", -0.1, "at least 0"),
                       "variance is -0.1, expected at least 0");
+    CHECK_NOTHROW(in::detail::require_equal("right.height()", 3, 3, "that of the left"));
+    CHECK_THROWS_WITH(in::detail::require_equal("right.height()", 2, 3, "that of the left"),
+                      "right.height() is 2, expected 3, that of the left");
 }
 
 TEST_CASE("Both errors derive from exceptions of the standard library") {

@@ -240,8 +240,9 @@ TEST_CASE("A primitive refuses sizes and segments out of range") {
     CHECK_THROWS_AS(to_mesh(in::capsule{.radius = bad}), in::invalid_input);
     CHECK_THROWS_AS(to_mesh(in::cone{.top_radius = -1}), in::invalid_input);
     CHECK_THROWS_AS(to_mesh(in::capsule{.radius = 1, .length = 1.9f}), in::invalid_input);
-    CHECK_THROWS_AS(to_mesh(in::cylinder{.segments = 2}), in::invalid_input);
-    CHECK_THROWS_AS(to_mesh(in::cylinder{.segments = 1 << 21}), in::invalid_input);
+    CHECK_THROWS_WITH(to_mesh(in::cylinder{.segments = 2}), "cylinder.segments is 2, expected 3 to 2^20");
+    CHECK_THROWS_WITH(to_mesh(in::cylinder{.segments = 1 << 21}), ContainsSubstring("cylinder.segments is 2097152"));
+    CHECK_THROWS_WITH(to_mesh(in::cone{.segments = 2}), "cone.segments is 2, expected 3 to 2^20");
     CHECK_THROWS_AS(to_mesh(in::sphere{.segments = 8193}), in::invalid_input);
     CHECK_THROWS_WITH(to_mesh(in::cylinder{.radius = -2}),
                       ContainsSubstring("cylinder.radius") && ContainsSubstring("-2"));

@@ -339,6 +339,6 @@ TEST_CASE("Input out of range is refused before any pixel changes") {
     in::image<float> color(4, 5);
     REQUIRE_THROWS_WITH(in::draw(
                             fine, place_only, [](const auto&) { return 0.0f; }, in::framebuffer<float>{color, depth}),
-                        ContainsSubstring("color height is 5"));
+                        ContainsSubstring("target.color.height() is 5, expected 4, that of the depth image"));
     for (const float d : depth.pixels()) CHECK(d == 7.0f);
 }

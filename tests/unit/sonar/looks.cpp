@@ -320,9 +320,9 @@ TEST_CASE("A tone is refused for recordings without labels, and for pings that a
     CHECK_THROWS_WITH(in::with_tone(unlabelled, rig, tone), ContainsSubstring("labels.seabed.size() is 0"));
     auto track = in::track_of(rig);
     track[2].position.y = 1e13;
-    CHECK_THROWS_WITH(in::with_tone(clean, track, rig, tone), ContainsSubstring("ping.position.y is 1e+13"));
+    CHECK_THROWS_WITH(in::with_tone(clean, track, rig, tone), ContainsSubstring("track[2].position.y is 1e+13"));
     track[2].position.y = static_cast<double>(not_a_number);
-    CHECK_THROWS_WITH(in::with_tone(clean, track, rig, tone), ContainsSubstring("ping.position"));
+    CHECK_THROWS_WITH(in::with_tone(clean, track, rig, tone), ContainsSubstring("track[2].position.y is nan"));
     auto far = clean;
     far.rows.first = std::int64_t{1} << 32;
     CHECK_THROWS_WITH(in::with_tone(far, rig, tone), ContainsSubstring("rows.first is 4294967296"));

@@ -176,8 +176,8 @@ TEST_CASE("Attitudes out of range are refused by name") {
     const auto with = [&](const in::ping& p) {
         return in::record(s, std::span<const in::ping>(&p, 1), in::side_scan{.range = 20, .bins = 8});
     };
-    CHECK_THROWS_WITH(with({.pitch = 1.5}), ContainsSubstring("ping.pitch is 1.5"));
-    CHECK_THROWS_WITH(with({.roll = std::nan("")}), ContainsSubstring("ping.roll is nan"));
+    CHECK_THROWS_WITH(with({.pitch = 1.5}), ContainsSubstring("track[0].pitch is 1.5"));
+    CHECK_THROWS_WITH(with({.roll = std::nan("")}), ContainsSubstring("track[0].roll is nan"));
     CHECK_NOTHROW(with({.yaw = 9, .pitch = -1.3, .roll = 7}));
 }
 
@@ -195,7 +195,8 @@ TEST_CASE("record_into() writes the caller's rows and nothing else, and refuses 
             const bool inside = x >= 5 && x < 55 && y >= 1 && y < 7;
             REQUIRE(mine(x, y) == (inside ? expected.image(x - 5, y - 1) : -1.0f));
         }
-    CHECK_THROWS_WITH(in::record_into(mine.view(), s, track, rig), ContainsSubstring("into.width() is 60"));
+    CHECK_THROWS_WITH(in::record_into(mine.view(), s, track, rig),
+                      ContainsSubstring("into.width() is 60, expected 50, the number of bins"));
     CHECK_THROWS_WITH(in::record_into(mine.view().part(0, 0, 50, 8), s, track, rig),
-                      ContainsSubstring("into.height() is 8"));
+                      ContainsSubstring("into.height() is 8, expected 6, the number of pings"));
 }

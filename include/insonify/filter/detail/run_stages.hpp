@@ -155,8 +155,8 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, into_ima
 template <class Source, class Pass, class E, class To>
 void run_stages(const Source& source, const Pass& pass, const run_context<E, into_view<To>>& run) {
     const image_view<To> target = run.sink.target;
-    require(source.width() == target.width(), "to.width()", target.width(), "that of the result");
-    require(source.height() == target.height(), "to.height()", target.height(), "that of the result");
+    require_equal("to.width()", target.width(), source.width(), "that of the result");
+    require_equal("to.height()", target.height(), source.height(), "that of the result");
     run_pass(read_only(source), target, pass, run.ex, run.origin);
 }
 template <class Source, class Pass, class E, class Sink, class F, class... Rest>

@@ -84,9 +84,9 @@ template <across_track Axis, class Labels = labels, backscatter_law Law = lamber
 render_stats record_into(image_view<float> into, const scene& s, std::span<const ping> track,
                          const side_scan_rig<Axis>& rig, const record_options<Labels, Law, Equation>& options = {},
                          E&& ex = {}) {
-    detail::require(into.width() == rig.bins, "into.width()", into.width(), "that of the rig's bins");
-    detail::require(static_cast<std::size_t>(into.height()) == track.size(), "into.height()", into.height(),
-                    "that of the pings");
+    detail::require_equal("into.width()", into.width(), rig.bins, "the number of bins");
+    detail::require_equal("into.height()", static_cast<std::size_t>(into.height()), track.size(),
+                          "the number of pings");
     const auto recorded = record(s, track, rig, options.without_labels(), ex);
     for (int y = 0; y < into.height(); ++y)
         std::copy(recorded.image.row(y).begin(), recorded.image.row(y).end(), into.row(y).begin());

@@ -5,6 +5,7 @@
 #include <insonify/geometry/transform.hpp>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -34,13 +35,14 @@ struct ping {
 
 inline namespace INSONIFY_FLAGS {
 
+/// @param name  of the ping in an error
 /// @throws invalid_input for a value out of range
-inline void validate(const ping& p) {
-    detail::require_finite("ping.position", p.position);
-    detail::require_angle("ping.yaw", p.yaw);
-    detail::require(numeric::abs(p.pitch) <= numeric::to_radians(80), "ping.pitch", p.pitch,
+inline void validate(const ping& p, const std::string& name = "ping") {
+    detail::require_finite(name + ".position", p.position);
+    detail::require_angle(name + ".yaw", p.yaw);
+    detail::require(numeric::abs(p.pitch) <= numeric::to_radians(80), name + ".pitch", p.pitch,
                     "at most 80 degrees, in radians");
-    detail::require_angle("ping.roll", p.roll);
+    detail::require_angle(name + ".roll", p.roll);
 }
 
 }  // namespace INSONIFY_FLAGS

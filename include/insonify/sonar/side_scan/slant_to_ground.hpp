@@ -26,7 +26,7 @@ frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from,
                               std::span<const double> altitudes = {}) {
     validate(from), validate(to);
     const int rows = slant.image.height(), bins = slant.image.width();
-    detail::require(bins == from.bins, "from.bins", from.bins, "the recording's width");
+    detail::require_equal("from.bins", from.bins, bins, "the recording's width");
     detail::require(altitudes.empty() || altitudes.size() == static_cast<std::size_t>(rows), "altitudes.size()",
                     altitudes.size(), "0 or one per row");
     for (const double altitude : altitudes) detail::require_finite("altitudes", altitude);

@@ -49,7 +49,7 @@ frame<Labels> upside_down(frame<Labels> r) {
 /// @throws invalid_input for pictures of different heights, a negative gap or one that leaves no room for the columns
 template <class T>
 image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill = T{}) {
-    detail::require(left.height() == right.height(), "right.height()", right.height(), "that of the left picture");
+    detail::require_equal("right.height()", right.height(), left.height(), "the height of the left picture");
     const std::int64_t widest = (std::numeric_limits<int>::max)() - std::int64_t{left.width()} - right.width();
     detail::require_range("gap", std::int64_t{gap}, 0, widest, "0 to 2^31 - 1, with both pictures");
     image<T> out(left.width() + gap + right.width(), left.height(), fill);
@@ -71,8 +71,8 @@ frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboa
     };
     require_side("port.rows.side", port.rows, side::port);
     require_side("starboard.rows.side", starboard.rows, side::starboard);
-    detail::require(port.rows.first == starboard.rows.first && port.rows.step == starboard.rows.step, "port.rows.first",
-                    port.rows.first, "that of the starboard recording, in the same order");
+    detail::require_equal("port.rows.first", port.rows.first, starboard.rows.first, "that of the starboard recording");
+    detail::require_equal("port.rows.step", port.rows.step, starboard.rows.step, "that of the starboard recording");
     frame<Labels> out;
     const auto join = [](auto& both, const auto& left, const auto& right) { both = beside(mirrored(left), right); };
     detail::for_each_image(join, out, port, starboard);
