@@ -27,8 +27,10 @@ class strict_config : public CLI::ConfigTOML {
     }
 
   private:
-    [[noreturn]] static void refuse(std::size_t line, const std::string& reason) {
-        throw CLI::ConfigError("--config: line " + std::to_string(line) + ": " + reason, CLI::ExitCodes::ConfigError);
+    [[noreturn]] void refuse(std::size_t line, const std::string& reason) const {
+        const auto file = app_.get_config_ptr()->as<std::string>();
+        throw CLI::ConfigError("--config: " + file + ": line " + std::to_string(line) + ": " + reason,
+                               CLI::ExitCodes::ConfigError);
     }
 
     /// Refuses everything but `option = value`.

@@ -570,7 +570,7 @@ class Generator(unittest.TestCase):
 
     def test_a_config_file_holds_only_options(self):
         config, out = self.folder / "set.toml", self.folder / "a"
-        for text, reason in ((b"size = 64\nfoo = 3\n", "line 2: 'foo' is not an option"),
+        for text, reason in ((b"size = 64\nfoo = 3\n", "set.toml: line 2: 'foo' is not an option"),
                              (b"[scene]\nsize = 64\n", "line 1: '[scene]' is a section"),
                              (b"size = 64\nhello\n", "line 2: 'hello' is not `option = value`"),
                              (b"\x7fELF\x02\x01\0\0\n", "line 1: this is not a text file"),
