@@ -7,22 +7,43 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <string_view>
 
 namespace survey {
 
 namespace in = insonify;
 
-/// A binary PGM whose rows are appended; the number of rows is known before.
-class pgm_stream {
+/// A file that is appended to. Destruction closes it, too, but ignores errors such as a full disk.
+class appended_file {
   public:
-    pgm_stream(const std::string& path, int width, std::int64_t height, int largest)
-        : path_(path), file_(path, std::ios::binary) {
-        file_ << "P5\n" << width << ' ' << height << '\n' << largest << '\n';
+    /// @throws io_error if the file can't be written, as the other members
+    explicit appended_file(const std::string& path) : path_(path), file_(path, std::ios::binary) { check(); }
+    void append(std::string_view bytes) {
+        file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         check();
     }
-    void row(std::span<const std::uint8_t> pixels) {
-        file_.write(reinterpret_cast<const char*>(pixels.data()), static_cast<std::streamsize>(pixels.size()));
+    void close() {
+        file_.close();
         check();
+    }
+
+  private:
+    void check() {
+        if (!file_) throw in::io_error(path_ + ": can't be written");
+    }
+    std::string path_;
+    std::ofstream file_;
+};
+
+/// A binary PGM whose rows are appended; the number of rows is known before.
+class pgm_stream : public appended_file {
+  public:
+    pgm_stream(const std::string& path, int width, std::int64_t height, int largest) : appended_file(path) {
+        append("P5\n" + std::to_string(width) + " " + std::to_string(height) + "\n" + std::to_string(largest) + "\n");
+    }
+    void row(std::span<const std::uint8_t> pixels) {
+        append({reinterpret_cast<const char*>(pixels.data()), pixels.size()});
     }
     /// 16 bits, big-endian as in PGM.
     void row(std::span<const std::uint16_t> pixels) {
@@ -33,42 +54,16 @@ class pgm_stream {
         }
         row(std::span<const std::uint8_t>(bytes_));
     }
-    /// Flushes the file. The destructor does so, too, but ignores errors such as a full disk.
-    /// @throws io_error if the file can't be written
-    void close() {
-        file_.close();
-        check();
-    }
 
   private:
-    void check() {
-        if (!file_) throw in::io_error(path_ + ": can't be written");
-    }
-    std::string path_;
-    std::ofstream file_;
     std::vector<std::uint8_t> bytes_;
 };
 
 /// A table whose lines are appended.
-class csv_stream {
+class csv_stream : public appended_file {
   public:
-    csv_stream(const std::string& path, const std::string& header) : path_(path), file_(path) { line(header); }
-    void line(const std::string& text) {
-        file_ << text << '\n';
-        check();
-    }
-    /// Flushes the file. @throws io_error if it can't be written
-    void close() {
-        file_.close();
-        check();
-    }
-
-  private:
-    void check() {
-        if (!file_) throw in::io_error(path_ + ": can't be written");
-    }
-    std::string path_;
-    std::ofstream file_;
+    csv_stream(const std::string& path, const std::string& header) : appended_file(path) { line(header); }
+    void line(const std::string& text) { append(text + "\n"); }
 };
 
 /// Text of numbers, formatted by printf.
