@@ -345,3 +345,31 @@ TEST_CASE("Of a plate above the sonar each side hears its half") {
     CHECK(expected > 0.1);
     CHECK(target_energy(hear(whole, p, 0, 10, 100)) == Approx(expected).epsilon(0.01));
 }
+
+TEST_CASE("Echoes and labels change from one type of bottom to the next halfway between vertices") {
+    struct halves {
+        void row(const in::seabed::scanline& line, std::span<float> heights, std::span<in::seabed::type> types) const {
+            std::fill(heights.begin(), heights.end(), 0.0f);
+            for (std::size_t i = 0; i < types.size(); ++i)
+                types[i] = line.x(i) < 10.75 ? in::seabed::type::sand : in::seabed::type::rock;
+        }
+        in::seabed::height_range range() const { return {0, 0}; }
+    };
+    in::scene s;
+    s.seabed = halves{};
+    s.bottom.fill({1});
+    s.bottom[in::seabed::index_of(in::seabed::type::rock)] = {0};
+    // The profile has a vertex each half metre; those at 10 and 10.5 m lie on the last of sand and the first of rock.
+    const in::ground_range rig{.ping_spacing = 1, .range = 20, .bins = 160};
+    in::record_options<> options;
+    options.cell = 1;
+    const auto heard =
+        in::record(s, std::vector{in::ping{.position = {0.25, 0, 5}}}, rig, options.with(in::sonar_equation<>{}));
+    for (int b = 40; b < 150; ++b) {
+        CAPTURE(b);
+        const bool is_sand = b * 0.125 < 10.25;
+        CHECK(heard.labels.seabed(b, 0) ==
+              in::seabed::index_of(is_sand ? in::seabed::type::sand : in::seabed::type::rock));
+        CHECK((heard.image(b, 0) > 0) == is_sand);
+    }
+}

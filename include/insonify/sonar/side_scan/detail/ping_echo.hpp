@@ -263,14 +263,18 @@ class ping_tracer {
     }
 
     /// Adds a piece of bottom to the labels: between two fractions of the way along a facet, with the caster of its
-    /// shadow or is_lit.
+    /// shadow or is_lit. Each half of a facet has the type of its vertex.
     void label(const facet& part, double from, double to, std::uint16_t caster) {
+        if (part.p.type == part.q.type) return label(part, from, to, caster, part.p.type);
+        if (from < 0.5) label(part, from, (std::min)(to, 0.5), caster, part.p.type);
+        if (to > 0.5) label(part, (std::max)(from, 0.5), to, caster, part.q.type);
+    }
+    void label(const facet& part, double from, double to, std::uint16_t caster, std::uint8_t type) {
         const auto position = [&](double f) {
             const glm::dvec2 at = part.at(f);
             return axis_.position(at.x, at.y);
         };
         const double a = from > 0 ? position(from) : part.begin, b = to < 1 ? position(to) : part.end;
-        const std::uint8_t type = from + to < 1 ? part.p.type : part.q.type;
         distribute(bins_.size(), static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
                    [&](std::size_t bin, float, float length) { bins_.add_seabed(bin, type, caster, length); });
     }
