@@ -128,6 +128,31 @@ TEST_CASE("A pitched fan across a steep rise along the track has no shadows, as 
         }
 }
 
+TEST_CASE("A pitched fan finds ground that rises more steeply than the fan descends") {
+    // Iterating the depth diverges there. The fan's plane cuts the ground in a line, which shades nothing.
+    const in::scene s =
+        over(ground{[](double x, double y) { return static_cast<float>(1.5 * y - 0.25 * x); }, -60, 60});
+    const double s45 = std::sqrt(0.5), depth = 5 / (s45 + 1.5 * s45), fall = 0.25 / (s45 + 1.5 * s45);
+    const auto heard = hear(s, {.position = {0, 0, 5}, .pitch = 0.25 * in::numeric::pi}, 0, 20, 400);
+    CHECK(dark_bins(heard) == 0);
+    const double nearest = depth / std::sqrt(1 + fall * fall);
+    for (int b = 0; b < 400; ++b) {
+        CAPTURE(b, nearest);
+        const double from = 0.05 * b;
+        if (from + 0.05 < nearest) CHECK(heard.image(b, 0) == 0);
+        if (from > nearest) CHECK(heard.image(b, 0) > 0);
+    }
+}
+
+TEST_CASE("A pitched fan that passes below the border of a gap meets nothing there") {
+    const auto heard_at = [](float height) {  // of ground that begins 3 m ahead, where the fan is at 2 m
+        const in::scene s = over(ground{[=](double, double y) { return y < 3 ? no_data : height; }, -3, 3});
+        return energy(hear(s, {.position = {0, 0, 5}, .pitch = 0.25 * in::numeric::pi}, 0, 20, 200).image);
+    };
+    CHECK(heard_at(1) > 0);
+    CHECK(heard_at(3) == 0);
+}
+
 TEST_CASE("A heightfield has data up to the vertices at the border of a gap, on all sides") {
     in::seabed::heightfield field{.heights = in::image<float>(5, 5, 2.0f)};
     field.heights(2, 2) = no_data;
@@ -298,6 +323,18 @@ TEST_CASE("A crest in front of a window shades it, and a target in front of the 
     }
 }
 
+TEST_CASE("A ridge casts its own shadow, whatever is buried in it") {
+    const auto height = [](double x, double) { return static_cast<float>((std::max)(0.0, 2 - std::fabs(x - 9))); };
+    in::scene s = over(ground{height, 0, 2});
+    const in::ping p{.position = {0, 0, 5}};
+    const auto bare = hear(s, p, 0, 30, 300);
+    s.add(in::cube{.size = {0.8f, 4, 0.8f}}, {.position = {9, 0, 0.6}}, "buried");
+    const auto heard = hear(s, p, 0, 30, 300);
+    CHECK(dark_bins(heard) > 20);
+    CHECK(heard.labels.shadow == bare.labels.shadow);
+    CHECK(heard.image == bare.image);
+}
+
 TEST_CASE("A bin that shows a target is not in shadow") {
     in::scene s = over(sea_level);
     s.add(in::cube{.size = {0.5f, 4, 2}}, {.position = {8, 0, 1}}, "front");
@@ -336,12 +373,12 @@ TEST_CASE("The last bin holds what it holds in a recording that goes on") {
     }
 }
 
-TEST_CASE("Of a plate above the sonar each side hears its half") {
+TEST_CASE("Of a plate above the sonar each side hears its part") {
     const in::ping p{.position = {0, 0, 5}};
-    in::scene whole = over(sea_level), half = whole;
-    whole.add(in::cube{.size = {4, 4, 0.2f}}, {.position = {0, 0, 8}}, "plate");
-    half.add(in::cube{.size = {2, 4, 0.2f}}, {.position = {1, 0, 8}}, "plate");
-    const double expected = target_energy(hear(half, p, 0, 10, 100));
+    in::scene whole = over(sea_level), part = whole;
+    whole.add(in::cube{.size = {4, 4, 0.2f}}, {.position = {0.3, 0, 8}}, "plate");
+    part.add(in::cube{.size = {2.3f, 4, 0.2f}}, {.position = {1.15, 0, 8}}, "plate");
+    const double expected = target_energy(hear(part, p, 0, 10, 100));
     CHECK(expected > 0.1);
     CHECK(target_energy(hear(whole, p, 0, 10, 100)) == Approx(expected).epsilon(0.01));
 }

@@ -48,8 +48,8 @@ class target_hits {
     void add(cut_segment o, std::uint16_t instance, float reflectivity) {
         if (o.a.x * o.b.down > o.a.down * o.b.x) std::swap(o.a, o.b);  // b is farther out
         if (!(o.a.x > 0 || o.b.x > 0)) return;
-        cut_at_nadir(o.a, o.b);
-        cut_at_nadir(o.b, o.a);
+        cut_at_vertical(o.a, o.b);
+        cut_at_vertical(o.b, o.a);
         if (fan_->size() == 0) return;
         const double from = fan_->coordinate(o.a.x, o.a.down), to = fan_->coordinate(o.b.x, o.b.down);
         if (!(from < to)) return;
@@ -141,7 +141,8 @@ class target_hits {
     /// The coordinate at which ray k begins.
     double ray_start(std::size_t k) const { return static_cast<double>(fan_->first() + k); }
 
-    static void cut_at_nadir(cut_segment::end& from, const cut_segment::end& to) {
+    /// Moves an end on the other side to the vertical through the sonar: below it the first end, above it the second.
+    static void cut_at_vertical(cut_segment::end& from, const cut_segment::end& to) {
         if (from.x > 0) return;
         const double f = from.x / (from.x - to.x);
         from = {0, from.down + f * (to.down - from.down),
