@@ -11266,6 +11266,12 @@ std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
     return track;
 }
 
+/// Chosen only where recording.hpp, which makes recordings, is not included.
+template <std::same_as<scene> Scene, across_track Axis>
+void render(const Scene&, const side_scan_rig<Axis>&) {
+    static_assert(sizeof(Scene) == 0, "a recording needs #include <insonify/sonar/side_scan/recording.hpp>");
+}
+
 /// The frame of a ping: x level and across the track, on the side that it faces; u along the sonar's axis; z up, from
 /// the sonar. The fan is the plane u = 0, which pitch tilts from the vertical.
 class ping_frame {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <insonify/core/numeric.hpp>
+#include <insonify/fwd.hpp>
 #include <insonify/geometry/transform.hpp>
 
+#include <concepts>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -111,6 +113,12 @@ std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
     track.reserve(static_cast<std::size_t>(rig.pings));
     for (int i = 0; i < rig.pings; ++i) track.push_back(ping_of(rig, i));
     return track;
+}
+
+/// Chosen only where recording.hpp, which makes recordings, is not included.
+template <std::same_as<scene> Scene, across_track Axis>
+void render(const Scene&, const side_scan_rig<Axis>&) {
+    static_assert(sizeof(Scene) == 0, "a recording needs #include <insonify/sonar/side_scan/recording.hpp>");
 }
 
 /// The frame of a ping: x level and across the track, on the side that it faces; u along the sonar's axis; z up, from
