@@ -552,6 +552,12 @@ inline std::string quoted(std::string_view word) {
     return text;
 }
 
+/// The name of a list's element in an error, as in "track[17]".
+template <arithmetic Number>
+std::string element_name(std::string_view list, Number i) {
+    return std::string(list).append(1, '[').append(to_text(i)).append(1, ']');
+}
+
 [[noreturn]] inline void refuse_text(std::string_view argument, std::string_view value, std::string_view expected) {
     std::string message(argument);
     message.append(" is ").append(value).append(", expected ").append(expected);
@@ -566,6 +572,12 @@ template <arithmetic Number>
 template <arithmetic Number>
 void require(bool holds, std::string_view argument, Number value, std::string_view expected) {
     if (!holds) refuse(argument, value, expected);
+}
+/// For a member of the value that `owner` names; the two are joined only for an error.
+template <arithmetic Number>
+void require_member(bool holds, std::string_view owner, std::string_view member, Number value,
+                    std::string_view expected) {
+    if (!holds) refuse(std::string(owner).append(member), value, expected);
 }
 /// For sizes that must agree: `require_equal("to.width()", to.width(), from.width(), "the width of the result")`.
 template <arithmetic Number>
@@ -1326,9 +1338,11 @@ void require_fraction(std::string_view argument, Number value) {
 }
 
 /// Refuses angles of so many turns that they can only be a mistake; sin_cos takes |x| < 2^50.
+/// @param member  appended to the argument's name
 template <std::floating_point Number>
-void require_angle(std::string_view argument, Number value) {
-    require_range(argument, value, Number(-1e6), Number(1e6), "finite radians, within 10^6 of 0");
+void require_angle(std::string_view argument, Number value, std::string_view member = {}) {
+    require_member(value >= Number(-1e6) && value <= Number(1e6), argument, member, value,
+                   "finite radians, within 10^6 of 0");
 }
 
 /// Calls `validate(value)` if the type has one.
@@ -5744,10 +5758,11 @@ struct affine {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// Messages name the coordinate, as in "pose.position.x".
+/// @param member  appended to the argument's name
 template <glm::length_t Length>
-void require_finite(std::string_view argument, const glm::vec<Length, double>& v) {
+void require_finite(std::string_view argument, const glm::vec<Length, double>& v, std::string_view member = {}) {
     for (glm::length_t i = 0; i < Length; ++i)
-        if (!numeric::is_finite(v[i])) refuse(std::string(argument) + '.' + "xyz"[i], v[i], "finite");
+        if (!numeric::is_finite(v[i])) refuse(std::string(argument).append(member) + '.' + "xyz"[i], v[i], "finite");
 }
 
 /// The unit vector; a zero or non-finite vector is returned unchanged.
@@ -5791,18 +5806,22 @@ inline affine inverse(const affine& map) {
     return {linear, -numeric::product(linear, map.offset)};
 }
 
-/// From the object's frame to the world's: R = Rz(yaw) Ry(pitch) Rx(roll), p -> scale R p + position - (0, 0, burial).
+/// @param name  of the pose in an error
 /// @throws invalid_input for a value that is not finite, an angle beyond 10^6 radians, or a scale that is not positive
-/// (mirror with an `affine`)
-inline affine to_world(const pose& p) {
-    using detail::require_finite;
-    require_finite("pose.position", p.position);
-    detail::require_angle("pose.yaw", p.yaw);
-    detail::require_angle("pose.pitch", p.pitch);
-    detail::require_angle("pose.roll", p.roll);
-    require_finite("pose.burial", p.burial);
-    detail::require_positive("pose.scale", p.scale);
+inline void validate(const pose& p, std::string_view name = "pose") {
+    detail::require_finite(name, p.position, ".position");
+    detail::require_angle(name, p.yaw, ".yaw");
+    detail::require_angle(name, p.pitch, ".pitch");
+    detail::require_angle(name, p.roll, ".roll");
+    detail::require_member(numeric::is_finite(p.burial), name, ".burial", p.burial, "finite");
+    detail::require_member(numeric::is_finite(p.scale) && p.scale > 0, name, ".scale", p.scale, "finite and positive");
+}
 
+/// From the object's frame to the world's: R = Rz(yaw) Ry(pitch) Rx(roll), p -> scale R p + position - (0, 0, burial).
+/// Mirrors are beyond a pose: see `transformed`.
+/// @throws invalid_input as `validate` does
+inline affine to_world(const pose& p) {
+    validate(p);
     const auto [sy, cy] = numeric::sin_cos(numeric::widened(p.yaw));
     const auto [sp, cp] = numeric::sin_cos(numeric::widened(p.pitch));
     const auto [sr, cr] = numeric::sin_cos(numeric::widened(p.roll));
@@ -10945,8 +10964,8 @@ struct scene {
 
 inline namespace INSONIFY_ONCE {
 
-/// @throws invalid_input for a material whose reflectivity is negative or not finite. Renderers check poses, meshes and
-///         seabeds
+/// @throws invalid_input for a material whose reflectivity is negative or not finite, or a pose out of range. Renderers
+///         check meshes and seabeds
 INSONIFY_FUNCTION void validate(const scene& s);
 
 /// The material of each label: the scene's, or that of the seabed's model where the scene sets none.
@@ -10961,18 +10980,18 @@ INSONIFY_FUNCTION pose rest_on(const insonify::seabed::any& seabed, const mesh_v
 
 #if INSONIFY_BODIES
 INSONIFY_FUNCTION void validate(const scene& s) {
-    const auto check = [](const material& m, const char* list, std::size_t i, const char* member) {
-        if (m.reflectivity >= 0 && numeric::is_finite(m.reflectivity)) return;
-        std::string name = list;  // appended, because g++ 12 warns of "[" + to_text(i) at -O3
-        name += '[';
-        name += detail::to_text(i);
-        name += member;
-        detail::refuse(name, m.reflectivity, "0 or more, finite");
+    const auto check = [](const material& m, std::string_view owner, std::string_view member) {
+        detail::require_member(m.reflectivity >= 0 && numeric::is_finite(m.reflectivity), owner, member, m.reflectivity,
+                               "0 or more, finite");
     };
     for (std::size_t i = 0; i < s.bottom.size(); ++i)
-        if (s.bottom[i].reflectivity != by_seabed_model) check(s.bottom[i], "scene.bottom", i, "].reflectivity");
-    for (std::size_t i = 0; i < s.targets.size(); ++i)
-        check(s.targets[i].surface, "scene.targets", i, "].surface.reflectivity");
+        if (s.bottom[i].reflectivity != by_seabed_model)
+            check(s.bottom[i], detail::element_name("scene.bottom", i), ".reflectivity");
+    for (std::size_t i = 0; i < s.targets.size(); ++i) {
+        const std::string name = detail::element_name("scene.targets", i);
+        check(s.targets[i].surface, name, ".surface.reflectivity");
+        validate(s.targets[i].placement, name + ".placement");
+    }
 }
 
 INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s) {
@@ -11190,12 +11209,12 @@ inline namespace INSONIFY_FLAGS {
 
 /// @param name  of the ping in an error
 /// @throws invalid_input for a value out of range
-inline void validate(const ping& p, const std::string& name = "ping") {
-    detail::require_finite(name + ".position", p.position);
-    detail::require_angle(name + ".yaw", p.yaw);
-    detail::require(numeric::abs(p.pitch) <= numeric::to_radians(80), name + ".pitch", p.pitch,
-                    "at most 80 degrees, in radians");
-    detail::require_angle(name + ".roll", p.roll);
+inline void validate(const ping& p, std::string_view name = "ping") {
+    detail::require_finite(name, p.position, ".position");
+    detail::require_angle(name, p.yaw, ".yaw");
+    detail::require_member(numeric::abs(p.pitch) <= numeric::to_radians(80), name, ".pitch", p.pitch,
+                           "at most 80 degrees, in radians");
+    detail::require_angle(name, p.roll, ".roll");
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -26331,7 +26350,7 @@ class recorder {
              const erased_options<Labels, Law>& options, executor_ref ex)
         : scene_(s), track_(track), window_(window), options_(options), equation_(options.equation) {
         materials_ = checked_materials(s, options);
-        for (std::size_t i = 0; i < track.size(); ++i) validate(track[i], "track[" + to_text(i) + "]");
+        for (std::size_t i = 0; i < track.size(); ++i) validate(track[i], element_name("track", i));
         require(equation_.pulse_length() <= window.bins * window.bin(), "pulse.length", equation_.pulse_length(),
                 "at most the metres of range that are recorded");
         out_.rows.side = window.looks;
@@ -27060,7 +27079,7 @@ void apply_tone(frame<labels>& r, const PingAt& ping_at, const side_scan_rig<Axi
     for (int y = 0; y < r.image.height(); ++y) {
         const std::int64_t number = r.rows.first + std::int64_t{r.rows.step} * y;
         const ping at = ping_at(number);
-        const std::string name = "track[" + to_text(number) + "]";
+        const std::string name = element_name("track", number);
         validate(at, name);
         require_range(name + ".position.x", at.position.x, -1e12, 1e12, "within 10^12 metres");
         require_range(name + ".position.y", at.position.y, -1e12, 1e12, "within 10^12 metres");
@@ -27277,8 +27296,8 @@ class scene_occlusion {
     template <class Shadow, executor E>
     scene_occlusion(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
                     const Shadow& policy, E& ex)
-        : centre_(
-              (detail::require_numbered_targets(s), require_box(within), require_light(light), within.box.centre())),
+        : centre_((validate(s), detail::require_numbered_targets(s), require_box(within), require_light(light),
+                   within.box.centre())),
           shapes_(shapes_of(s, light, within, shadow::radius_of(policy), ex)),
           targets_(s.targets.size()),
           built_(policy.build(casters(), from_centre(light), local(within), ex)) {}

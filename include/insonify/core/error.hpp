@@ -65,6 +65,12 @@ inline std::string quoted(std::string_view word) {
     return text;
 }
 
+/// The name of a list's element in an error, as in "track[17]".
+template <arithmetic Number>
+std::string element_name(std::string_view list, Number i) {
+    return std::string(list).append(1, '[').append(to_text(i)).append(1, ']');
+}
+
 [[noreturn]] inline void refuse_text(std::string_view argument, std::string_view value, std::string_view expected) {
     std::string message(argument);
     message.append(" is ").append(value).append(", expected ").append(expected);
@@ -79,6 +85,12 @@ template <arithmetic Number>
 template <arithmetic Number>
 void require(bool holds, std::string_view argument, Number value, std::string_view expected) {
     if (!holds) refuse(argument, value, expected);
+}
+/// For a member of the value that `owner` names; the two are joined only for an error.
+template <arithmetic Number>
+void require_member(bool holds, std::string_view owner, std::string_view member, Number value,
+                    std::string_view expected) {
+    if (!holds) refuse(std::string(owner).append(member), value, expected);
 }
 /// For sizes that must agree: `require_equal("to.width()", to.width(), from.width(), "the width of the result")`.
 template <arithmetic Number>

@@ -247,9 +247,11 @@ void require_fraction(std::string_view argument, Number value) {
 }
 
 /// Refuses angles of so many turns that they can only be a mistake; sin_cos takes |x| < 2^50.
+/// @param member  appended to the argument's name
 template <std::floating_point Number>
-void require_angle(std::string_view argument, Number value) {
-    require_range(argument, value, Number(-1e6), Number(1e6), "finite radians, within 10^6 of 0");
+void require_angle(std::string_view argument, Number value, std::string_view member = {}) {
+    require_member(value >= Number(-1e6) && value <= Number(1e6), argument, member, value,
+                   "finite radians, within 10^6 of 0");
 }
 
 /// Calls `validate(value)` if the type has one.

@@ -45,10 +45,11 @@ struct affine {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// Messages name the coordinate, as in "pose.position.x".
+/// @param member  appended to the argument's name
 template <glm::length_t Length>
-void require_finite(std::string_view argument, const glm::vec<Length, double>& v) {
+void require_finite(std::string_view argument, const glm::vec<Length, double>& v, std::string_view member = {}) {
     for (glm::length_t i = 0; i < Length; ++i)
-        if (!numeric::is_finite(v[i])) refuse(std::string(argument) + '.' + "xyz"[i], v[i], "finite");
+        if (!numeric::is_finite(v[i])) refuse(std::string(argument).append(member) + '.' + "xyz"[i], v[i], "finite");
 }
 
 /// The unit vector; a zero or non-finite vector is returned unchanged.
@@ -92,18 +93,22 @@ inline affine inverse(const affine& map) {
     return {linear, -numeric::product(linear, map.offset)};
 }
 
-/// From the object's frame to the world's: R = Rz(yaw) Ry(pitch) Rx(roll), p -> scale R p + position - (0, 0, burial).
+/// @param name  of the pose in an error
 /// @throws invalid_input for a value that is not finite, an angle beyond 10^6 radians, or a scale that is not positive
-/// (mirror with an `affine`)
-inline affine to_world(const pose& p) {
-    using detail::require_finite;
-    require_finite("pose.position", p.position);
-    detail::require_angle("pose.yaw", p.yaw);
-    detail::require_angle("pose.pitch", p.pitch);
-    detail::require_angle("pose.roll", p.roll);
-    require_finite("pose.burial", p.burial);
-    detail::require_positive("pose.scale", p.scale);
+inline void validate(const pose& p, std::string_view name = "pose") {
+    detail::require_finite(name, p.position, ".position");
+    detail::require_angle(name, p.yaw, ".yaw");
+    detail::require_angle(name, p.pitch, ".pitch");
+    detail::require_angle(name, p.roll, ".roll");
+    detail::require_member(numeric::is_finite(p.burial), name, ".burial", p.burial, "finite");
+    detail::require_member(numeric::is_finite(p.scale) && p.scale > 0, name, ".scale", p.scale, "finite and positive");
+}
 
+/// From the object's frame to the world's: R = Rz(yaw) Ry(pitch) Rx(roll), p -> scale R p + position - (0, 0, burial).
+/// Mirrors are beyond a pose: see `transformed`.
+/// @throws invalid_input as `validate` does
+inline affine to_world(const pose& p) {
+    validate(p);
     const auto [sy, cy] = numeric::sin_cos(numeric::widened(p.yaw));
     const auto [sp, cp] = numeric::sin_cos(numeric::widened(p.pitch));
     const auto [sr, cr] = numeric::sin_cos(numeric::widened(p.roll));

@@ -114,7 +114,7 @@ void apply_tone(frame<labels>& r, const PingAt& ping_at, const side_scan_rig<Axi
     for (int y = 0; y < r.image.height(); ++y) {
         const std::int64_t number = r.rows.first + std::int64_t{r.rows.step} * y;
         const ping at = ping_at(number);
-        const std::string name = "track[" + to_text(number) + "]";
+        const std::string name = element_name("track", number);
         validate(at, name);
         require_range(name + ".position.x", at.position.x, -1e12, 1e12, "within 10^12 metres");
         require_range(name + ".position.y", at.position.y, -1e12, 1e12, "within 10^12 metres");

@@ -53,8 +53,8 @@ class scene_occlusion {
     template <class Shadow, executor E>
     scene_occlusion(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
                     const Shadow& policy, E& ex)
-        : centre_(
-              (detail::require_numbered_targets(s), require_box(within), require_light(light), within.box.centre())),
+        : centre_((validate(s), detail::require_numbered_targets(s), require_box(within), require_light(light),
+                   within.box.centre())),
           shapes_(shapes_of(s, light, within, shadow::radius_of(policy), ex)),
           targets_(s.targets.size()),
           built_(policy.build(casters(), from_centre(light), local(within), ex)) {}

@@ -57,8 +57,8 @@ struct scene {
 
 inline namespace INSONIFY_ONCE {
 
-/// @throws invalid_input for a material whose reflectivity is negative or not finite. Renderers check poses, meshes and
-///         seabeds
+/// @throws invalid_input for a material whose reflectivity is negative or not finite, or a pose out of range. Renderers
+///         check meshes and seabeds
 INSONIFY_FUNCTION void validate(const scene& s);
 
 /// The material of each label: the scene's, or that of the seabed's model where the scene sets none.
@@ -73,18 +73,18 @@ INSONIFY_FUNCTION pose rest_on(const insonify::seabed::any& seabed, const mesh_v
 
 #if INSONIFY_BODIES
 INSONIFY_FUNCTION void validate(const scene& s) {
-    const auto check = [](const material& m, const char* list, std::size_t i, const char* member) {
-        if (m.reflectivity >= 0 && numeric::is_finite(m.reflectivity)) return;
-        std::string name = list;  // appended, because g++ 12 warns of "[" + to_text(i) at -O3
-        name += '[';
-        name += detail::to_text(i);
-        name += member;
-        detail::refuse(name, m.reflectivity, "0 or more, finite");
+    const auto check = [](const material& m, std::string_view owner, std::string_view member) {
+        detail::require_member(m.reflectivity >= 0 && numeric::is_finite(m.reflectivity), owner, member, m.reflectivity,
+                               "0 or more, finite");
     };
     for (std::size_t i = 0; i < s.bottom.size(); ++i)
-        if (s.bottom[i].reflectivity != by_seabed_model) check(s.bottom[i], "scene.bottom", i, "].reflectivity");
-    for (std::size_t i = 0; i < s.targets.size(); ++i)
-        check(s.targets[i].surface, "scene.targets", i, "].surface.reflectivity");
+        if (s.bottom[i].reflectivity != by_seabed_model)
+            check(s.bottom[i], detail::element_name("scene.bottom", i), ".reflectivity");
+    for (std::size_t i = 0; i < s.targets.size(); ++i) {
+        const std::string name = detail::element_name("scene.targets", i);
+        check(s.targets[i].surface, name, ".surface.reflectivity");
+        validate(s.targets[i].placement, name + ".placement");
+    }
 }
 
 INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s) {

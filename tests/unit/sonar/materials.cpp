@@ -60,11 +60,11 @@ TEST_CASE("A pose that is not finite is refused by name, in every way to draw") 
     const double nan = std::numeric_limits<double>::quiet_NaN();
     in::scene s = cubes();
     s.targets[1].placement.position.y = nan;
-    check_refused(s, "pose.position.y is nan, expected finite");
+    check_refused(s, "scene.targets[1].placement.position.y is nan, expected finite");
     s = cubes();
     s.targets[0].placement.roll = endless;
-    check_refused(s, "pose.roll is inf, expected finite");
+    check_refused(s, "scene.targets[0].placement.roll is inf, expected finite");
     s = cubes();
     s.targets[0].placement.scale = static_cast<float>(nan);
-    check_refused(s, "pose.scale is nan");
+    check_refused(s, "scene.targets[0].placement.scale is nan");
 }

@@ -400,7 +400,7 @@ TEST_CASE("Rigs out of range are refused by name and value") {
     REQUIRE_THROWS_WITH(soft({.radius = 9}), ContainsSubstring("radius is 9"));
     in::scene bad;
     bad.add(in::cube{}, {.scale = 0}, "cube");
-    REQUIRE_THROWS_WITH(in::render(bad, {.size = {8, 8}}), ContainsSubstring("pose.scale is 0"));
+    REQUIRE_THROWS_WITH(in::render(bad, {.size = {8, 8}}), ContainsSubstring("scene.targets[0].placement.scale is 0"));
 }
 
 TEST_CASE("Pictures of one pixel and of odd shapes are drawn") {

@@ -7,7 +7,7 @@
 
 #include <concepts>
 #include <cstdint>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -39,12 +39,12 @@ inline namespace INSONIFY_FLAGS {
 
 /// @param name  of the ping in an error
 /// @throws invalid_input for a value out of range
-inline void validate(const ping& p, const std::string& name = "ping") {
-    detail::require_finite(name + ".position", p.position);
-    detail::require_angle(name + ".yaw", p.yaw);
-    detail::require(numeric::abs(p.pitch) <= numeric::to_radians(80), name + ".pitch", p.pitch,
-                    "at most 80 degrees, in radians");
-    detail::require_angle(name + ".roll", p.roll);
+inline void validate(const ping& p, std::string_view name = "ping") {
+    detail::require_finite(name, p.position, ".position");
+    detail::require_angle(name, p.yaw, ".yaw");
+    detail::require_member(numeric::abs(p.pitch) <= numeric::to_radians(80), name, ".pitch", p.pitch,
+                           "at most 80 degrees, in radians");
+    detail::require_angle(name, p.roll, ".roll");
 }
 
 }  // namespace INSONIFY_FLAGS

@@ -55,7 +55,7 @@ class recorder {
              const erased_options<Labels, Law>& options, executor_ref ex)
         : scene_(s), track_(track), window_(window), options_(options), equation_(options.equation) {
         materials_ = checked_materials(s, options);
-        for (std::size_t i = 0; i < track.size(); ++i) validate(track[i], "track[" + to_text(i) + "]");
+        for (std::size_t i = 0; i < track.size(); ++i) validate(track[i], element_name("track", i));
         require(equation_.pulse_length() <= window.bins * window.bin(), "pulse.length", equation_.pulse_length(),
                 "at most the metres of range that are recorded");
         out_.rows.side = window.looks;
