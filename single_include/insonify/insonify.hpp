@@ -11285,7 +11285,7 @@ std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
     return track;
 }
 
-/// Chosen only where recording.hpp, which makes recordings, is not included.
+/// Where recording.hpp is not included: an error of the compiler that names it.
 template <std::same_as<scene> Scene, across_track Axis>
 void render(const Scene&, const side_scan_rig<Axis>&) {
     static_assert(sizeof(Scene) == 0, "a recording needs #include <insonify/sonar/side_scan/recording.hpp>");
