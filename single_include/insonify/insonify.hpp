@@ -5818,7 +5818,7 @@ inline void validate(const pose& p, std::string_view name = "pose") {
 }
 
 /// From the object's frame to the world's: R = Rz(yaw) Ry(pitch) Rx(roll), p -> scale R p + position - (0, 0, burial).
-/// Mirrors are beyond a pose: see `transformed`.
+/// To mirror, use an `affine`.
 /// @throws invalid_input as `validate` does
 inline affine to_world(const pose& p) {
     validate(p);
@@ -5984,6 +5984,11 @@ inline void append_arc(dynamic_array<outline_point>& outline, double radius, dou
     }
 }
 
+/// Bounds the segments of a surface of revolution.
+inline void require_revolved_segments(const char* name, int segments) {
+    require(segments >= 3 && segments <= (1 << 20), name, segments, "3 to 2^20");
+}
+
 /// Bounds the segments of a grid with half as many rings, so that the mesh has less than 2^26 triangles.
 inline void require_round_segments(const char* name, int segments) {
     require(segments >= 3 && segments <= 8192, name, segments, "3 to 8192");
@@ -6035,7 +6040,7 @@ INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segme
 
 #if INSONIFY_BODIES
 INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segments, axis around) {
-    detail::require(segments >= 3 && segments <= (1 << 20), "segments", segments, "3 to 2^20");
+    detail::require_revolved_segments("segments", segments);
     const auto count = static_cast<std::uint32_t>(segments);
     detail::require(outline.size() <= (std::size_t{1} << 28) / count, "outline.size()", outline.size(),
                     "at most 2^28 vertices in all");
@@ -6129,7 +6134,7 @@ INSONIFY_FUNCTION mesh to_mesh(const cone& shape) {
     detail::require_positive("cone.height", shape.height);
     detail::require(numeric::is_finite(shape.top_radius) && shape.top_radius >= 0, "cone.top_radius", shape.top_radius,
                     "finite and at least 0");
-    detail::require_range("cone.segments", shape.segments, 3, 1 << 20, "3 to 2^20");
+    detail::require_revolved_segments("cone.segments", shape.segments);
     const auto radius = static_cast<double>(shape.radius);
     const auto height = static_cast<double>(shape.height);
     const auto top = static_cast<double>(shape.top_radius);
@@ -6255,7 +6260,7 @@ INSONIFY_FUNCTION mesh to_mesh(const capsule& shape);
 INSONIFY_FUNCTION mesh to_mesh(const cylinder& shape) {
     detail::require_positive("cylinder.radius", shape.radius);
     detail::require_positive("cylinder.length", shape.length);
-    detail::require_range("cylinder.segments", shape.segments, 3, 1 << 20, "3 to 2^20");
+    detail::require_revolved_segments("cylinder.segments", shape.segments);
     const auto radius = static_cast<double>(shape.radius);
     const double half = 0.5 * static_cast<double>(shape.length);
     const std::array<outline_point, 6> outline = {{{0, -half, 0, -1},
@@ -27413,8 +27418,8 @@ class scene_occlusion {
 /// @param within  region of the points, and sampling of the seabed
 /// @param policy  any shadow policy
 /// @param ex      runs it; the result is the same for any executor
-/// @throws invalid_input for bounds that are empty or not finite, a light or a policy out of range, or more than 65534
-///         targets
+/// @throws invalid_input for bounds that are empty or not finite, a light, a policy, a pose or a material out of range,
+///         or more than 65534 targets
 template <shadow::casting_policy Shadow = shadow::exact, executor_argument E = serial_executor>
 auto occlusion_of(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
                   const Shadow& policy = {}, E&& ex = {}) {

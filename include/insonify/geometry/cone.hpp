@@ -32,7 +32,7 @@ INSONIFY_FUNCTION mesh to_mesh(const cone& shape) {
     detail::require_positive("cone.height", shape.height);
     detail::require(numeric::is_finite(shape.top_radius) && shape.top_radius >= 0, "cone.top_radius", shape.top_radius,
                     "finite and at least 0");
-    detail::require_range("cone.segments", shape.segments, 3, 1 << 20, "3 to 2^20");
+    detail::require_revolved_segments("cone.segments", shape.segments);
     const auto radius = static_cast<double>(shape.radius);
     const auto height = static_cast<double>(shape.height);
     const auto top = static_cast<double>(shape.top_radius);

@@ -39,7 +39,7 @@ INSONIFY_FUNCTION mesh to_mesh(const capsule& shape);
 INSONIFY_FUNCTION mesh to_mesh(const cylinder& shape) {
     detail::require_positive("cylinder.radius", shape.radius);
     detail::require_positive("cylinder.length", shape.length);
-    detail::require_range("cylinder.segments", shape.segments, 3, 1 << 20, "3 to 2^20");
+    detail::require_revolved_segments("cylinder.segments", shape.segments);
     const auto radius = static_cast<double>(shape.radius);
     const double half = 0.5 * static_cast<double>(shape.length);
     const std::array<outline_point, 6> outline = {{{0, -half, 0, -1},

@@ -63,6 +63,11 @@ inline void append_arc(dynamic_array<outline_point>& outline, double radius, dou
     }
 }
 
+/// Bounds the segments of a surface of revolution.
+inline void require_revolved_segments(const char* name, int segments) {
+    require(segments >= 3 && segments <= (1 << 20), name, segments, "3 to 2^20");
+}
+
 /// Bounds the segments of a grid with half as many rings, so that the mesh has less than 2^26 triangles.
 inline void require_round_segments(const char* name, int segments) {
     require(segments >= 3 && segments <= 8192, name, segments, "3 to 8192");
@@ -114,7 +119,7 @@ INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segme
 
 #if INSONIFY_BODIES
 INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segments, axis around) {
-    detail::require(segments >= 3 && segments <= (1 << 20), "segments", segments, "3 to 2^20");
+    detail::require_revolved_segments("segments", segments);
     const auto count = static_cast<std::uint32_t>(segments);
     detail::require(outline.size() <= (std::size_t{1} << 28) / count, "outline.size()", outline.size(),
                     "at most 2^28 vertices in all");

@@ -105,7 +105,7 @@ inline void validate(const pose& p, std::string_view name = "pose") {
 }
 
 /// From the object's frame to the world's: R = Rz(yaw) Ry(pitch) Rx(roll), p -> scale R p + position - (0, 0, burial).
-/// Mirrors are beyond a pose: see `transformed`.
+/// To mirror, use an `affine`.
 /// @throws invalid_input as `validate` does
 inline affine to_world(const pose& p) {
     validate(p);

@@ -170,8 +170,8 @@ class scene_occlusion {
 /// @param within  region of the points, and sampling of the seabed
 /// @param policy  any shadow policy
 /// @param ex      runs it; the result is the same for any executor
-/// @throws invalid_input for bounds that are empty or not finite, a light or a policy out of range, or more than 65534
-///         targets
+/// @throws invalid_input for bounds that are empty or not finite, a light, a policy, a pose or a material out of range,
+///         or more than 65534 targets
 template <shadow::casting_policy Shadow = shadow::exact, executor_argument E = serial_executor>
 auto occlusion_of(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
                   const Shadow& policy = {}, E&& ex = {}) {

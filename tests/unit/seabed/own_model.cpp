@@ -232,8 +232,7 @@ TEST_CASE("A seabed that leaves the range that it states is refused where shadow
         CHECK_THROWS_WITH(occlude(beyond), ContainsSubstring("expected heights within its range()"));
     }
     CHECK_THROWS_WITH(draw({0.5f, {-0.2, 0.25}}),
-                      "a height of the seabed is 0.5, expected heights within its range(), "
-                      "-0.2 to 0.25");
+                      "a height of the seabed is 0.5, expected heights within its range(), -0.2 to 0.25");
     CHECK_NOTHROW(draw({0.3f, {-0.3, 0.3}}));  // float holds 0.3 a little above
     CHECK_NOTHROW(occlude({0.3f, {-0.3, 0.3}}));
 }
