@@ -33,8 +33,9 @@
 #error "insonify's results are bit-identical on all platforms, which x87 arithmetic breaks: use -msse2 -mfpmath=sse."
 #endif
 
+// nvcc and others with EDG's front end have vector extensions, but not for vectors whose length depends on a template.
 #if !defined(INSONIFY_SIMD)
-#if defined(__GNUC__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+#if defined(__GNUC__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ && !defined(__NVCC__) && !defined(__EDG__)
 #define INSONIFY_SIMD 1
 #else
 #define INSONIFY_SIMD 0

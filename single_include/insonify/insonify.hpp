@@ -66,8 +66,9 @@
 #error "insonify's results are bit-identical on all platforms, which x87 arithmetic breaks: use -msse2 -mfpmath=sse."
 #endif
 
+// nvcc and others with EDG's front end have vector extensions, but not for vectors whose length depends on a template.
 #if !defined(INSONIFY_SIMD)
-#if defined(__GNUC__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+#if defined(__GNUC__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ && !defined(__NVCC__) && !defined(__EDG__)
 #define INSONIFY_SIMD 1
 #else
 #define INSONIFY_SIMD 0
@@ -778,7 +779,8 @@ class memory_block {
     }
     INSONIFY_MEMBER memory_block(memory_block&& other) noexcept { swap(other); }
     INSONIFY_MEMBER memory_block& operator=(memory_block&& other) noexcept {
-        memory_block(std::move(other)).swap(*this);
+        memory_block taken = std::move(other);
+        taken.swap(*this);
         return *this;
     }
     INSONIFY_TAGGED ~memory_block() {
@@ -6882,16 +6884,14 @@ INSONIFY_FUNCTION std::optional<regular_grid> find_regular_grid(const mesh_view&
         m.triangles.size() != 2 * (columns - 1) * (rows - 1))
         return std::nullopt;
 
-    regular_grid grid{static_cast<int>(columns), static_cast<int>(rows), {}, {}, {}, cut->is_rising};
     const auto place = [&](std::size_t i) { return glm::dvec2(m.positions[i].x, m.positions[i].y); };
-    grid.origin = place(0);
-    grid.right = (place(columns - 1) - grid.origin) / static_cast<double>(columns - 1);
-    grid.up = (place((rows - 1) * columns) - grid.origin) / static_cast<double>(rows - 1);
-    const double area = grid.right.x * grid.up.y - grid.right.y * grid.up.x;
+    const glm::dvec2 origin = place(0), right = (place(columns - 1) - origin) / static_cast<double>(columns - 1),
+                     up = (place((rows - 1) * columns) - origin) / static_cast<double>(rows - 1);
+    const double area = right.x * up.y - right.y * up.x;
     if (!(cut->is_mirrored ? area < 0 : area > 0)) return std::nullopt;  // written so that NaN doesn't pass
     const auto square = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
     // Metres between the lines of the lattice. Of an oblique one this is less than the length of a step.
-    const double step = numeric::abs(area) / numeric::square_root((std::max)(square(grid.right), square(grid.up)));
+    const double step = numeric::abs(area) / numeric::square_root((std::max)(square(right), square(up)));
     const double farthest_accepted = square({step * off, 0});
 
     std::atomic<bool> differs = false;
@@ -6899,10 +6899,10 @@ INSONIFY_FUNCTION std::optional<regular_grid> find_regular_grid(const mesh_view&
     dynamic_array<double> farthest((rows + grain - 1) / grain, 0);  // squared, of the vertices of some rows
     bulk_ranges(ex, rows, grain, [&](std::size_t first, std::size_t last) {
         for (std::size_t j = first; j < last && !differs; ++j) {
-            const glm::dvec2 start = grid.origin + static_cast<double>(j) * grid.up;
+            const glm::dvec2 start = origin + static_cast<double>(j) * up;
             for (std::size_t i = 0; i < columns; ++i) {
                 const std::size_t vertex = j * columns + i;
-                const double squared = square(place(vertex) - (start + static_cast<double>(i) * grid.right));
+                const double squared = square(place(vertex) - (start + static_cast<double>(i) * right));
                 farthest[j / grain] = (std::max)(farthest[j / grain], squared);
                 // Written so that NaN doesn't pass.
                 if (!(squared <= farthest_accepted && numeric::is_finite(m.positions[vertex].z))) differs = true;
@@ -6915,8 +6915,9 @@ INSONIFY_FUNCTION std::optional<regular_grid> find_regular_grid(const mesh_view&
         }
     });
     if (differs) return std::nullopt;
-    grid.off = numeric::square_root(*std::max_element(farthest.begin(), farthest.end())) / step;
-    return grid;
+    const double farthest_off = numeric::square_root(*std::max_element(farthest.begin(), farthest.end())) / step;
+    return regular_grid{
+        static_cast<int>(columns), static_cast<int>(rows), origin, right, up, cut->is_rising, farthest_off};
 }
 #endif
 
@@ -27376,7 +27377,7 @@ class scene_occlusion {
 
     detail::dynamic_array<shadow::caster> casters() const {
         detail::dynamic_array<shadow::caster> all;
-        for (const placed& p : shapes_) all.push_back({p.shape, p.placement, p.shape.box()});
+        for (const placed& p : shapes_) all.push_back(shadow::caster{p.shape, p.placement, p.shape.box()});
         return all;
     }
 

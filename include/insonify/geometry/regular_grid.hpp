@@ -133,16 +133,14 @@ INSONIFY_FUNCTION std::optional<regular_grid> find_regular_grid(const mesh_view&
         m.triangles.size() != 2 * (columns - 1) * (rows - 1))
         return std::nullopt;
 
-    regular_grid grid{static_cast<int>(columns), static_cast<int>(rows), {}, {}, {}, cut->is_rising};
     const auto place = [&](std::size_t i) { return glm::dvec2(m.positions[i].x, m.positions[i].y); };
-    grid.origin = place(0);
-    grid.right = (place(columns - 1) - grid.origin) / static_cast<double>(columns - 1);
-    grid.up = (place((rows - 1) * columns) - grid.origin) / static_cast<double>(rows - 1);
-    const double area = grid.right.x * grid.up.y - grid.right.y * grid.up.x;
+    const glm::dvec2 origin = place(0), right = (place(columns - 1) - origin) / static_cast<double>(columns - 1),
+                     up = (place((rows - 1) * columns) - origin) / static_cast<double>(rows - 1);
+    const double area = right.x * up.y - right.y * up.x;
     if (!(cut->is_mirrored ? area < 0 : area > 0)) return std::nullopt;  // written so that NaN doesn't pass
     const auto square = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
     // Metres between the lines of the lattice. Of an oblique one this is less than the length of a step.
-    const double step = numeric::abs(area) / numeric::square_root((std::max)(square(grid.right), square(grid.up)));
+    const double step = numeric::abs(area) / numeric::square_root((std::max)(square(right), square(up)));
     const double farthest_accepted = square({step * off, 0});
 
     std::atomic<bool> differs = false;
@@ -150,10 +148,10 @@ INSONIFY_FUNCTION std::optional<regular_grid> find_regular_grid(const mesh_view&
     dynamic_array<double> farthest((rows + grain - 1) / grain, 0);  // squared, of the vertices of some rows
     bulk_ranges(ex, rows, grain, [&](std::size_t first, std::size_t last) {
         for (std::size_t j = first; j < last && !differs; ++j) {
-            const glm::dvec2 start = grid.origin + static_cast<double>(j) * grid.up;
+            const glm::dvec2 start = origin + static_cast<double>(j) * up;
             for (std::size_t i = 0; i < columns; ++i) {
                 const std::size_t vertex = j * columns + i;
-                const double squared = square(place(vertex) - (start + static_cast<double>(i) * grid.right));
+                const double squared = square(place(vertex) - (start + static_cast<double>(i) * right));
                 farthest[j / grain] = (std::max)(farthest[j / grain], squared);
                 // Written so that NaN doesn't pass.
                 if (!(squared <= farthest_accepted && numeric::is_finite(m.positions[vertex].z))) differs = true;
@@ -166,8 +164,9 @@ INSONIFY_FUNCTION std::optional<regular_grid> find_regular_grid(const mesh_view&
         }
     });
     if (differs) return std::nullopt;
-    grid.off = numeric::square_root(*std::max_element(farthest.begin(), farthest.end())) / step;
-    return grid;
+    const double farthest_off = numeric::square_root(*std::max_element(farthest.begin(), farthest.end())) / step;
+    return regular_grid{
+        static_cast<int>(columns), static_cast<int>(rows), origin, right, up, cut->is_rising, farthest_off};
 }
 #endif
 

@@ -128,7 +128,7 @@ class scene_occlusion {
 
     detail::dynamic_array<shadow::caster> casters() const {
         detail::dynamic_array<shadow::caster> all;
-        for (const placed& p : shapes_) all.push_back({p.shape, p.placement, p.shape.box()});
+        for (const placed& p : shapes_) all.push_back(shadow::caster{p.shape, p.placement, p.shape.box()});
         return all;
     }
 

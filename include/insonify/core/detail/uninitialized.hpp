@@ -31,7 +31,8 @@ class memory_block {
     }
     INSONIFY_MEMBER memory_block(memory_block&& other) noexcept { swap(other); }
     INSONIFY_MEMBER memory_block& operator=(memory_block&& other) noexcept {
-        memory_block(std::move(other)).swap(*this);
+        memory_block taken = std::move(other);
+        taken.swap(*this);
         return *this;
     }
     INSONIFY_TAGGED ~memory_block() {
