@@ -120,16 +120,4 @@ inline double area_under(const std::vector<roc_point>& curve) {
     return area;
 }
 
-/// The mean of the classes' recalls.
-inline double balanced_accuracy(const std::vector<int>& truth, const std::vector<int>& predicted, int classes) {
-    double sum = 0;
-    for (int k = 0; k < classes; ++k) {
-        double actual = 0, correct = 0;
-        for (std::size_t i = 0; i < truth.size(); ++i)
-            if (truth[i] == k) actual += 1, correct += predicted[i] == k ? 1 : 0;
-        sum += actual > 0 ? correct / actual : 0;
-    }
-    return sum / classes;
-}
-
 }  // namespace recognition

@@ -127,7 +127,7 @@ class experiment {
     template <class SetOf>
     void learn(const std::string& name, const std::string& description, const SetOf& set_of, const features* own) {
         for (const std::size_t images : options_.sizes) {
-            outcome o{name, description, images, std::vector<confusion>(options_.seeds), {}};
+            outcome o{name, description, images, std::vector<confusion<3>>(options_.seeds), {}};
             if (own != nullptr) o.own.resize(options_.seeds);
             pool_.bulk(options_.seeds, [&](std::size_t seed) {
                 const classifier machine(set_of(seed, images));

@@ -171,9 +171,9 @@ inline std::string confusion_svg(const std::vector<trial_result>& results) {
             body +=
                 svg::text(x0 + left + middle, y0 + top - 6, real_classes[k], " text-anchor='middle' font-size='11'") +
                 svg::text(x0 + left - 6, y0 + top + middle + 4, real_classes[k], " text-anchor='end' font-size='11'");
-            const double shown = l.confusion[c][k][0] + l.confusion[c][k][1] + l.confusion[c][k][2];
+            const double shown = l.confusion[c].actual(k);
             for (std::size_t a = 0; a < 3; ++a) {
-                const double share = shown > 0 ? l.confusion[c][k][a] / shown : 0;
+                const double share = shown > 0 ? l.confusion[c].counts[k][a] / shown : 0;
                 const double x = x0 + left + static_cast<double>(a) * cell,
                              y = y0 + top + static_cast<double>(k) * cell;
                 body +=

@@ -25,7 +25,7 @@ struct trial_result {
     std::vector<double> area[2], balanced[2];  ///< of the support vector machine, of the forest
     std::vector<std::vector<roc_point>> curves[2];
     std::vector<double> three[2];  ///< balanced accuracy of plane, ship or bottom
-    std::array<std::array<double, 3>, 3> confusion[2]{};
+    recognition::confusion<3> confusion[2]{};
 
     std::string name() const { return std::to_string(real) + " real" + (generated ? " and generated" : ""); }
     /// Index of the classifier with the larger mean area.
@@ -98,16 +98,15 @@ inline trial_result run_trial(const collection& real, const collection& made, st
             std::vector<int> predicted;
             for (const double score : two_classes[c].scores) predicted.push_back(score > 0 ? 1 : 0);
             l.area[c].push_back(area_under(curve));
-            l.balanced[c].push_back(balanced_accuracy(truth, predicted, 2));
+            l.balanced[c].push_back(confusion<2>(truth, predicted).balanced_accuracy());
             l.curves[c].push_back(curve);
         }
         const std::array<predictions, 2> three_classes =
             train_and_test(real, made, d, count, generated, true, seed, truth);
         for (std::size_t c = 0; c < 2; ++c) {
-            l.three[c].push_back(balanced_accuracy(truth, three_classes[c].classes, 3));
-            for (std::size_t i = 0; i < truth.size(); ++i)
-                l.confusion[c][static_cast<std::size_t>(truth[i])]
-                           [static_cast<std::size_t>(three_classes[c].classes[i])] += 1;
+            const confusion<3> run(truth, three_classes[c].classes);
+            l.three[c].push_back(run.balanced_accuracy());
+            l.confusion[c] += run;
         }
     }
     return l;

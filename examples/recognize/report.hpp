@@ -14,18 +14,18 @@ namespace recognition {
 struct outcome {
     std::string name, description;
     std::size_t images;
-    std::vector<confusion> transfer;  ///< on the simulator's pictures
-    std::vector<confusion> own;       ///< on pictures of the same recipe, if any
+    std::vector<confusion<3>> transfer;  ///< on the simulator's pictures
+    std::vector<confusion<3>> own;       ///< on pictures of the same recipe, if any
 };
 
-inline spread balanced(const std::vector<confusion>& runs) {
+inline spread balanced(const std::vector<confusion<3>>& runs) {
     std::vector<double> values;
-    for (const confusion& c : runs) values.push_back(c.balanced_accuracy());
+    for (const confusion<3>& c : runs) values.push_back(c.balanced_accuracy());
     return spread(values);
 }
-inline confusion sum(const std::vector<confusion>& runs) {
-    confusion all;
-    for (const confusion& c : runs) all += c;
+inline confusion<3> sum(const std::vector<confusion<3>>& runs) {
+    confusion<3> all;
+    for (const confusion<3>& c : runs) all += c;
     return all;
 }
 
@@ -46,7 +46,7 @@ inline std::string markdown(const std::vector<outcome>& outcomes, const class_co
         "| training pictures | number | on its own kind | on the simulator's | plain accuracy | macro F1 |\n"
         "|---|---:|---|---|---:|---:|\n",
         seeds);
-    const auto cell = [](const std::vector<confusion>& runs) {
+    const auto cell = [](const std::vector<confusion<3>>& runs) {
         if (runs.empty()) return std::string("-");
         const spread s = balanced(runs);
         return text("%.3f ± %.3f (%.3f to %.3f)", s.mean, s.deviation, s.lowest, s.highest);
@@ -61,7 +61,7 @@ inline std::string markdown(const std::vector<outcome>& outcomes, const class_co
 
     out += "\nRecalls on the simulator's test set over all seeds; rows are true classes, columns predictions.\n";
     for (const outcome& o : outcomes) {
-        const confusion c = sum(o.transfer);
+        const confusion<3> c = sum(o.transfer);
         out += text("\n| %s, %zu | cylinder | cube | sphere |\n|---|---:|---:|---:|\n", o.name.c_str(), o.images);
         for (std::size_t k = 0; k < 3; ++k)
             out +=
@@ -83,7 +83,7 @@ inline std::string svg(const std::vector<outcome>& outcomes) {
         "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
         across * width, rows * height);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
-        const confusion c = sum(outcomes[i].transfer);
+        const confusion<3> c = sum(outcomes[i].transfer);
         out += text("<g transform=\"translate(%d %d)\">\n", static_cast<int>(i % columns) * width,
                     static_cast<int>(i / columns) * height);
         out += text("<text x=\"%d\" y=\"16\" font-weight=\"bold\">%s, %zu: %.2f</text>\n", left,

@@ -10,32 +10,51 @@
 namespace recognition {
 
 /// Rows: true classes; columns: predictions.
+template <std::size_t Classes>
 struct confusion {
-    std::array<std::array<double, 3>, 3> counts{};
+    std::array<std::array<double, Classes>, Classes> counts{};
 
     confusion() = default;
-    confusion(const std::vector<std::size_t>& truth, const std::vector<std::size_t>& predictions) {
-        for (std::size_t i = 0; i < truth.size(); ++i) counts[truth[i]][predictions[i]] += 1;
+    /// @param truth, predictions  numbers of classes
+    template <class Number>
+    confusion(const std::vector<Number>& truth, const std::vector<Number>& predictions) {
+        for (std::size_t i = 0; i < truth.size(); ++i)
+            counts[static_cast<std::size_t>(truth[i])][static_cast<std::size_t>(predictions[i])] += 1;
     }
     confusion& operator+=(const confusion& other) {
-        for (std::size_t i = 0; i < 9; ++i) counts[i / 3][i % 3] += other.counts[i / 3][i % 3];
+        for (std::size_t i = 0; i < Classes; ++i)
+            for (std::size_t k = 0; k < Classes; ++k) counts[i][k] += other.counts[i][k];
         return *this;
     }
-    double actual(std::size_t kind) const { return counts[kind][0] + counts[kind][1] + counts[kind][2]; }
-    double predicted(std::size_t kind) const { return counts[0][kind] + counts[1][kind] + counts[2][kind]; }
-    double total() const { return actual(0) + actual(1) + actual(2); }
+    double actual(std::size_t kind) const {
+        return sum([&](std::size_t k) { return counts[kind][k]; });
+    }
+    double predicted(std::size_t kind) const {
+        return sum([&](std::size_t k) { return counts[k][kind]; });
+    }
     double recall(std::size_t kind) const { return actual(kind) > 0 ? counts[kind][kind] / actual(kind) : 0; }
 
-    double accuracy() const { return (counts[0][0] + counts[1][1] + counts[2][2]) / total(); }
-    /// The mean of the classes' recalls: a third for guessing and for one constant answer.
-    double balanced_accuracy() const { return (recall(0) + recall(1) + recall(2)) / 3; }
+    double accuracy() const {
+        return sum([&](std::size_t k) { return counts[k][k]; }) / sum([&](std::size_t k) { return actual(k); });
+    }
+    /// The mean of the classes' recalls: 1 / Classes for guessing and for one constant answer.
+    double balanced_accuracy() const {
+        return sum([&](std::size_t k) { return recall(k); }) / static_cast<double>(Classes);
+    }
     double macro_f1() const {
-        double sum = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double either = actual(k) + predicted(k);
-            sum += either > 0 ? 2 * counts[k][k] / either / 3 : 0;
-        }
-        return sum;
+        return sum([&](std::size_t k) {
+                   const double either = actual(k) + predicted(k);
+                   return either > 0 ? 2 * counts[k][k] / either : 0;
+               }) /
+               static_cast<double>(Classes);
+    }
+
+  private:
+    template <class Of>
+    static double sum(const Of& of) {
+        double all = 0;
+        for (std::size_t k = 0; k < Classes; ++k) all += of(k);
+        return all;
     }
 };
 
