@@ -8366,6 +8366,24 @@ inline void require_within(const height_range& stated, double lowest, double hig
                "heights within its range(), " + to_text(stated.lowest) + " to " + to_text(stated.highest));
 }
 
+/// The labels that a seabed's samples may have: the library's, and those in its legend.
+class known_labels {
+  public:
+    explicit known_labels(const std::vector<type_properties>& legend) {
+        std::fill_n(known_.begin(), type_count, true);
+        for (const type_properties& p : legend) known_[index_of(p.label)] = true;
+    }
+    /// @throws invalid_input for another label, which would be drawn like sand and have no name
+    void require_all(std::span<const type> samples) const {
+        for (const type t : samples)
+            if (!known_[index_of(t)])
+                refuse("a label of the seabed", index_of(t), "one of the library's or one that its legend() lists");
+    }
+
+  private:
+    std::array<bool, label_count> known_{};
+};
+
 template <class S>
 height_range range_of(const S& s) {
     if constexpr (bounded_sampler<S>) return s.range();
@@ -18041,7 +18059,7 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
 /// the grid.
 /// @param source  the library's or a user's own
 /// @throws invalid_input for a grid smaller than 2 x 2, beyond 1e9 metres or with a spacing that is not above 0 and
-/// below 10^6 m, and for parameters of the model out of their range
+/// below 10^6 m, for parameters of the model out of their range, and for own labels that its legend lacks
 template <model Model, executor_argument Executor = serial_executor>
 heightfield sample(const Model& source, const grid& where, Executor&& ex = serial_executor{}) {
     constexpr insonify::detail::uninitialized uninitialized;
@@ -18049,7 +18067,8 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
     heightfield result{.heights = image<float>(where.width, where.height, uninitialized, memory),
                        .origin = where.origin + where.spacing * glm::dvec2(where.first),
                        .spacing = where.spacing};
-    for (const type_properties& t : legend_of(source))
+    const std::vector<type_properties> legend = legend_of(source);
+    for (const type_properties& t : legend)
         if (index_of(t.label) >= type_count) result.own_types.push_back(t);
     if (const std::optional<type> only = only_type(source))
         result.fallback = *only;
@@ -18058,6 +18077,7 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
     validate(result);
 
     const auto prepared = prepare(source);
+    const detail::known_labels known(legend);
     ex.bulk(static_cast<std::size_t>(where.height), [&](std::size_t row) {
         const int j = static_cast<int>(row);
         const scanline line{.y = where.origin.y + where.spacing * (static_cast<double>(where.first.y) + j),
@@ -18065,7 +18085,9 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
                             .spacing = where.spacing,
                             .first = where.first.x,
                             .grid_spacing = where.band_limited ? where.spacing : 0};
-        prepared.row(line, result.heights.row(j), result.types.empty() ? std::span<type>{} : result.types.row(j));
+        const std::span<type> types = result.types.empty() ? std::span<type>{} : result.types.row(j);
+        prepared.row(line, result.heights.row(j), types);
+        known.require_all(types);
     });
     return result;
 }
@@ -24884,6 +24906,7 @@ class bottom_tiles {
     bottom_tiles(const seabed::any& source, double spacing)
         : is_empty_(source.empty()),
           prepared_(source.prepare()),
+          labels_(source.legend()),
           range_(prepared_.range()),
           spacing_(even(spacing)),
           scale_(1 / spacing_) {}
@@ -25070,6 +25093,7 @@ class bottom_tiles {
                 {.y = vertex(run.y, j), .origin = vertex(run.x, 0), .spacing = spacing_, .grid_spacing = spacing_},
                 std::span(heights).subspan(j * width, width), std::span(types).subspan(j * width, width));
         }
+        require_stated(heights, types);
         const auto scale = static_cast<float>(0.5 * scale_);
         const auto slope = [&](float before, float at, float after) {
             const float central = scale * (after - before);  // finite, unless beside a gap
@@ -25087,8 +25111,21 @@ class bottom_tiles {
         }
     }
 
+    /// @throws invalid_input for heights beyond the seabed's range, and for labels that its legend lacks
+    void require_stated(std::span<const float> heights, std::span<const seabed::type> types) const {
+        float lowest = std::numeric_limits<float>::infinity(), highest = -lowest;
+        for (const float height : heights) {
+            if (height < lowest) lowest = height;  // not where it is NaN
+            if (height > highest) highest = height;
+        }
+        seabed::detail::require_within(merge(range_, {0, 0}), static_cast<double>(lowest),
+                                       static_cast<double>(highest));
+        labels_.require_all(types);
+    }
+
     bool is_empty_;
     seabed::any_sampler prepared_;
+    seabed::detail::known_labels labels_;
     seabed::height_range range_;
     double spacing_, scale_;
     std::int64_t first_x_ = 0, first_y_ = 0, columns_ = 0, rows_ = 0;

@@ -18,6 +18,7 @@
 #include <insonify/seabed/registry.hpp>
 
 #include <algorithm>
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -200,6 +201,24 @@ inline void require_within(const height_range& stated, double lowest, double hig
         refuse("a height of the seabed", farthest,
                "heights within its range(), " + to_text(stated.lowest) + " to " + to_text(stated.highest));
 }
+
+/// The labels that a seabed's samples may have: the library's, and those in its legend.
+class known_labels {
+  public:
+    explicit known_labels(const std::vector<type_properties>& legend) {
+        std::fill_n(known_.begin(), type_count, true);
+        for (const type_properties& p : legend) known_[index_of(p.label)] = true;
+    }
+    /// @throws invalid_input for another label, which would be drawn like sand and have no name
+    void require_all(std::span<const type> samples) const {
+        for (const type t : samples)
+            if (!known_[index_of(t)])
+                refuse("a label of the seabed", index_of(t), "one of the library's or one that its legend() lists");
+    }
+
+  private:
+    std::array<bool, label_count> known_{};
+};
 
 template <class S>
 height_range range_of(const S& s) {

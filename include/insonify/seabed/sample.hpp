@@ -50,7 +50,7 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
 /// the grid.
 /// @param source  the library's or a user's own
 /// @throws invalid_input for a grid smaller than 2 x 2, beyond 1e9 metres or with a spacing that is not above 0 and
-/// below 10^6 m, and for parameters of the model out of their range
+/// below 10^6 m, for parameters of the model out of their range, and for own labels that its legend lacks
 template <model Model, executor_argument Executor = serial_executor>
 heightfield sample(const Model& source, const grid& where, Executor&& ex = serial_executor{}) {
     constexpr insonify::detail::uninitialized uninitialized;
@@ -58,7 +58,8 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
     heightfield result{.heights = image<float>(where.width, where.height, uninitialized, memory),
                        .origin = where.origin + where.spacing * glm::dvec2(where.first),
                        .spacing = where.spacing};
-    for (const type_properties& t : legend_of(source))
+    const std::vector<type_properties> legend = legend_of(source);
+    for (const type_properties& t : legend)
         if (index_of(t.label) >= type_count) result.own_types.push_back(t);
     if (const std::optional<type> only = only_type(source))
         result.fallback = *only;
@@ -67,6 +68,7 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
     validate(result);
 
     const auto prepared = prepare(source);
+    const detail::known_labels known(legend);
     ex.bulk(static_cast<std::size_t>(where.height), [&](std::size_t row) {
         const int j = static_cast<int>(row);
         const scanline line{.y = where.origin.y + where.spacing * (static_cast<double>(where.first.y) + j),
@@ -74,7 +76,9 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
                             .spacing = where.spacing,
                             .first = where.first.x,
                             .grid_spacing = where.band_limited ? where.spacing : 0};
-        prepared.row(line, result.heights.row(j), result.types.empty() ? std::span<type>{} : result.types.row(j));
+        const std::span<type> types = result.types.empty() ? std::span<type>{} : result.types.row(j);
+        prepared.row(line, result.heights.row(j), types);
+        known.require_all(types);
     });
     return result;
 }

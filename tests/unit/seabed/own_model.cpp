@@ -214,7 +214,7 @@ TEST_CASE("A seabed without a range is drawn in range modes and refused by overh
     CHECK_THROWS_WITH(in::render(s, in::overhead{.size = {8, 8}}), ContainsSubstring("range() of the seabed is inf"));
 }
 
-TEST_CASE("A seabed that leaves the range that it states is refused where shadows depend on it") {
+TEST_CASE("A seabed that leaves the range that it states is refused") {
     const in::shadow::directional_light sun{.elevation = 0.3};
     const auto draw = [](const plateau& p) {
         in::scene s;
@@ -226,15 +226,36 @@ TEST_CASE("A seabed that leaves the range that it states is refused where shadow
         s.seabed = p;
         in::occlusion_of(s, sun, {.box = {{-1, -1, -1}, {1, 1, 1}}});
     };
+    const auto record = [](const plateau& p) {
+        in::scene s;
+        s.seabed = p;
+        in::render(s, in::side_scan{.pings = 4, .range = 20, .bins = 64});
+    };
     for (const plateau& beyond : {plateau{0.5f, {-0.2, 0.2}}, plateau{-0.5f, {-0.2, 0.2}}, plateau{0.5f, {}}}) {
         CHECK_THROWS_WITH(draw(beyond), ContainsSubstring("a height of the seabed is " +
                                                           std::string(beyond.level < 0 ? "-" : "") + "0.5"));
         CHECK_THROWS_WITH(occlude(beyond), ContainsSubstring("expected heights within its range()"));
+        CHECK_THROWS_WITH(record(beyond), ContainsSubstring("expected heights within its range()"));
     }
     CHECK_THROWS_WITH(draw({0.5f, {-0.2, 0.25}}),
                       "a height of the seabed is 0.5, expected heights within its range(), -0.2 to 0.25");
     CHECK_NOTHROW(draw({0.3f, {-0.3, 0.3}}));  // float holds 0.3 a little above
     CHECK_NOTHROW(occlude({0.3f, {-0.3, 0.3}}));
+    CHECK_NOTHROW(record({0.3f, {-0.3, 0.3}}));
+}
+
+TEST_CASE("An own label that a seabed writes but does not list is refused: it would be drawn as sand") {
+    struct unlisted : stripes {
+        std::vector<sb::type_properties> legend() const { return {stripes::legend().front()}; }
+    };
+    constexpr auto said = "a label of the seabed is 65, expected one of the library's or one that its legend() lists";
+    in::scene s;
+    s.seabed = unlisted{};
+    CHECK_THROWS_WITH(in::render(s, in::overhead{.size = {8, 8}}), said);
+    CHECK_THROWS_WITH(in::render(s, in::side_scan{.pings = 4, .range = 20, .bins = 64}), said);
+    CHECK_THROWS_WITH(sb::sample(unlisted{}, sb::grid{.spacing = 1, .width = 8, .height = 8}), said);
+    s.seabed = sb::blend{.first = sb::mud{}, .second = stripes{}};
+    CHECK_NOTHROW(in::render(s, in::overhead{.size = {8, 8}}));
 }
 
 TEST_CASE("`any` shares its model, returns it by type, and keeps it alive for samplers") {

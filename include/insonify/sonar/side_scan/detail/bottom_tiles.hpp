@@ -33,6 +33,7 @@ class bottom_tiles {
     bottom_tiles(const seabed::any& source, double spacing)
         : is_empty_(source.empty()),
           prepared_(source.prepare()),
+          labels_(source.legend()),
           range_(prepared_.range()),
           spacing_(even(spacing)),
           scale_(1 / spacing_) {}
@@ -219,6 +220,7 @@ class bottom_tiles {
                 {.y = vertex(run.y, j), .origin = vertex(run.x, 0), .spacing = spacing_, .grid_spacing = spacing_},
                 std::span(heights).subspan(j * width, width), std::span(types).subspan(j * width, width));
         }
+        require_stated(heights, types);
         const auto scale = static_cast<float>(0.5 * scale_);
         const auto slope = [&](float before, float at, float after) {
             const float central = scale * (after - before);  // finite, unless beside a gap
@@ -236,8 +238,21 @@ class bottom_tiles {
         }
     }
 
+    /// @throws invalid_input for heights beyond the seabed's range, and for labels that its legend lacks
+    void require_stated(std::span<const float> heights, std::span<const seabed::type> types) const {
+        float lowest = std::numeric_limits<float>::infinity(), highest = -lowest;
+        for (const float height : heights) {
+            if (height < lowest) lowest = height;  // not where it is NaN
+            if (height > highest) highest = height;
+        }
+        seabed::detail::require_within(merge(range_, {0, 0}), static_cast<double>(lowest),
+                                       static_cast<double>(highest));
+        labels_.require_all(types);
+    }
+
     bool is_empty_;
     seabed::any_sampler prepared_;
+    seabed::detail::known_labels labels_;
     seabed::height_range range_;
     double spacing_, scale_;
     std::int64_t first_x_ = 0, first_y_ = 0, columns_ = 0, rows_ = 0;
