@@ -11266,7 +11266,7 @@ struct side_scan_rig {
     float ping_spacing = 0.04f;  ///< metres of track from one ping to the next, > 0
     int pings = 1024;            ///< 1 to 2^20
     float first_range = 0;       ///< start of the first bin, metres, >= 0
-    float range = 40;            ///< end of the last bin, metres
+    float range = 40;            ///< end of the last bin, metres, > first_range, at most 10^5
     int bins = 2048;             ///< 1 to 2^20
     insonify::side side = insonify::side::starboard;
 
@@ -11308,6 +11308,7 @@ ping ping_of(const side_scan_rig<Axis>& rig, int number) {
 }
 
 /// All pings of the rig's track, in order.
+/// @throws invalid_input for a value of the rig out of range
 template <across_track Axis>
 std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
     validate(rig);
@@ -26635,7 +26636,7 @@ template <class T>
 image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill = T{}) {
     detail::require_equal("right.height()", right.height(), left.height(), "the height of the left picture");
     const std::int64_t widest = (std::numeric_limits<int>::max)() - std::int64_t{left.width()} - right.width();
-    detail::require_range("gap", std::int64_t{gap}, 0, widest, "0 to 2^31 - 1, with both pictures");
+    detail::require_range("gap", std::int64_t{gap}, 0, widest, "0 or more, for a total width below 2^31");
     image<T> out(left.width() + gap + right.width(), left.height(), fill);
     for (int y = 0; y < left.height(); ++y) {
         std::copy(left.row(y).begin(), left.row(y).end(), out.row(y).begin());
@@ -26854,10 +26855,10 @@ inline namespace INSONIFY_FLAGS {
 /// Laws by label.
 using speckle_laws = std::array<speckle_law, seabed::label_count>;
 
-/// Marks labels that take the law of the seabed's model.
+/// `looks` of a label that takes the law that the seabed's model states.
 inline constexpr int looks_by_seabed_model = -1;
 
-/// The registry's laws; labels outside of the registry take those of the seabed's model.
+/// The registry's laws; labels outside of the registry take those that the seabed's model states.
 constexpr speckle_laws default_speckle() {
     speckle_laws laws{};
     laws.fill({looks_by_seabed_model});
@@ -26969,7 +26970,7 @@ inline namespace INSONIFY_FLAGS {
 /// Applies speckle to an image of mean intensities.
 ///
 /// @param mean     intensities; 0 stays 0
-/// @param types    a seabed::type for each pixel, as in labels::seabed; others are `elsewhere`
+/// @param types    the label of each pixel, as in labels::seabed; those without a law take that of `elsewhere`
 /// @param numbers  ping numbers of the rows
 /// @throws invalid_input for images of different sizes or a parameter out of its range
 template <executor_argument E = serial_executor>
@@ -26978,7 +26979,7 @@ image<float> with_speckle(image_view<const float> mean, image_view<const std::ui
     return detail::speckled(mean, types, s, numbers, executor_ref(ex));
 }
 
-/// Speckle with the laws of the seabed's model for labels that have none.
+/// Fills in the laws that the seabed's model states for labels that have none in `s`.
 /// @param legend  as labels::legend
 inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type_properties> legend) {
     for (const seabed::type_properties& t : legend) {
@@ -26988,11 +26989,16 @@ inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type
     return s;
 }
 
-/// The recording with speckle, by its own ping numbers and legend.
+/// The recording, of one side or both, with speckle by its own ping numbers and legend.
+/// @throws invalid_input for labels of another size than the image, rows that are not pings, more columns to port than
+///         there are, or a parameter out of its range
 template <executor_argument E = serial_executor>
 frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex = {}) {
-    const seabed_speckle completed = with_legend(s, r.labels.legend);
     const int port = r.rows.port_columns;
+    detail::require_range("rows.port_columns", port, 0, r.image.width(), "0 to the width of the recording");
+    detail::require_equal("labels.seabed.width()", r.labels.seabed.width(), r.image.width(), "that of the image");
+    detail::require_equal("labels.seabed.height()", r.labels.seabed.height(), r.image.height(), "that of the image");
+    const seabed_speckle completed = with_legend(s, r.labels.legend);
     if (port == 0) {
         r.image = with_speckle(r.image.view(), r.labels.seabed.view(), completed, r.rows, ex);
         return r;
