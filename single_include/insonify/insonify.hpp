@@ -1460,7 +1460,7 @@ enum class isa {
     scalar,    ///< one value at a time, in builds with INSONIFY_SIMD=0; other builds use `baseline` instead
     baseline,  ///< the 128-bit vectors that every processor of the target has (SSE2, NEON)
     avx2,      ///< 256-bit integer and float vectors
-    avx512,    ///< 512-bit ones (F, BW, DQ and VL), for kernels that gain by them
+    avx512,    ///< 512-bit ones (F, BW, DQ and VL), for kernels that gain from them
 };
 
 inline namespace INSONIFY_ONCE {
@@ -1496,6 +1496,7 @@ INSONIFY_TARGET("avx2")
 void run_avx2(const Kernel& kernel) {
     kernel.template run<8>();
 }
+// AVX-512F includes fused multiply-add, AVX2 does not.
 template <class Kernel>
 INSONIFY_TARGET("avx512f,avx512bw,avx512dq,avx512vl")
 INSONIFY_NEVER_FUSED void run_avx512(const Kernel& kernel) {
@@ -1898,7 +1899,7 @@ INSONIFY_INLINE void to_double(lanes<double, N>& into, const lanes<std::uint64_t
     into = into - 0x1p52;
 }
 
-/// numeric::log for normal numbers above 0, operation by operation.
+/// Natural logarithm of normal numbers above 0, by the operations of numeric::log, to the same bits.
 template <int N>
 INSONIFY_INLINE void log_lanes(lanes<double, N>& into, const lanes<double, N>& x) {
     using doubles = lanes<double, N>;
@@ -1923,8 +1924,8 @@ INSONIFY_INLINE void log_lanes(lanes<double, N>& into, const lanes<double, N>& x
     into = k * ln2_high - ((half_square - (s * (half_square + 2.0 * t * tail) + k * ln2_low)) - f);
 }
 
-/// ln(2^k (1 + f)) for whole k and sqrt(1/2) - 1 <= f <= sqrt(2) - 1, relative error below 2e-7; the sum of
-/// numeric::log.
+/// ln(2^k (1 + f)) for whole k and sqrt(1/2) - 1 <= f <= sqrt(2) - 1, relative error below 2e-7; summed in
+/// the order of numeric::log.
 template <int N>
 INSONIFY_INLINE void log_lanes(lanes<float, N>& into, const lanes<float, N>& k, const lanes<float, N>& f) {
     using floats = lanes<float, N>;
@@ -2010,7 +2011,7 @@ INSONIFY_INLINE void cos_sin_turns(lanes<float, N>& cosine, lanes<float, N>& sin
     cosine = 1.0f - 2.0f * s * s;
 }
 
-/// Correctly rounded.
+/// Square root, correctly rounded.
 template <int N>
 INSONIFY_INLINE void square_root(lanes<double, N>& into, const lanes<double, N>& of) {
 #if INSONIFY_SIMD && defined(__SSE2__)
@@ -6419,7 +6420,7 @@ inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
     return numeric::is_finite(point) ? merge(box, {point, point}) : box;
 }
 
-/// The smallest box, along the axes of the frame that `map` leads to, around a box.
+/// The smallest box around a box that `map` transforms.
 inline bounding_box transformed(const bounding_box& box, const affine& map) {
     bounding_box around;
     for (int i = 0; i < 8; ++i) around = include(around, transform_point(map, box.corner(i)));
@@ -17244,7 +17245,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Marks pixels, eight to a byte; rows start a byte.
+/// One bit for each pixel, eight to a byte; each row starts at a byte.
 class pixel_marks {
   public:
     pixel_marks() = default;
@@ -17349,7 +17350,7 @@ class undecided_light {
     }
 
   private:
-    /// Of the pixels of a tile.
+    /// The entries of a tile in `pixels_`: `count` of at most `room`, from index `start`.
     struct list {
         std::size_t start, count, room;
     };
@@ -20312,6 +20313,7 @@ inline merged_compound merge(const compound& c) {
     return out;
 }
 
+/// The parts as one mesh, without their reflectivities.
 /// @throws invalid_input as `merge` does
 inline mesh to_mesh(const compound& c) {
     return merge(c).shape;
@@ -20449,11 +20451,11 @@ inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// A wing, tailplane or fin: straight edges from root to tip, the tip rounded. `out` is a unit vector along its span,
-/// `up` across its chord; the chord runs towards -x.
+/// `up` across its chord; the chord runs towards -x. Lengths are metres.
 struct aerofoil_surface {
     glm::dvec3 leading_edge;  // at the root
     glm::dvec3 out, up;
-    double span, root_chord, tip_chord, sweep_tangent, thickness;
+    double span, root_chord, tip_chord, sweep_tangent, thickness;  // the last as a share of the chord
 };
 
 /// One wing's cross section, from the upper trailing edge round the nose to the lower one.
@@ -20563,7 +20565,7 @@ inline void append_propeller(mesh& into, const propeller& p, int corners) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/objects/aeroplane.hpp ---------------------------------------------------
-// Aeroplanes, whole, without wings or tail, or on their back.
+// Aeroplanes: whole, with wings or tail torn off, or inverted.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -20645,14 +20647,14 @@ class aeroplane_builder {
         const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(a_.dihedral));
         const double half = 0.5 * static_cast<double>(a_.span), inner = 0.15 * radius_;
         // Roots of both wings lie inside the fuselage, apart from each other.
-        return {{static_cast<double>(a_.wing_position) * length_, side * inner, -0.45 * radius_},
-                {0, side * cosine, sine},
-                {0, 0, 1},  // sections stay upright, so that the tips lie at the span
-                (half - inner) / cosine,
-                static_cast<double>(a_.root_chord),
-                static_cast<double>(a_.tip_chord),
-                numeric::tan(static_cast<double>(a_.sweep)) * cosine,
-                0.15};
+        return {.leading_edge = {static_cast<double>(a_.wing_position) * length_, side * inner, -0.45 * radius_},
+                .out = {0, side * cosine, sine},
+                .up = {0, 0, 1},  // sections stay upright, so that the tips lie at the span
+                .span = (half - inner) / cosine,
+                .root_chord = static_cast<double>(a_.root_chord),
+                .tip_chord = static_cast<double>(a_.tip_chord),
+                .sweep_tangent = numeric::tan(static_cast<double>(a_.sweep)) * cosine,
+                .thickness = 0.15};
     }
 
     void build_wings() {
@@ -20718,21 +20720,26 @@ class aeroplane_builder {
         for (const double side : {1.0, -1.0}) {
             const double inner = 0.1 * root.half_width;
             const aerofoil_surface plane{
-                {end + 0.015 * length_ + 1.05 * chord, side * inner, root.z + 0.3 * root.half_height},
-                {0, side, 0},
-                {0, 0, 1},
-                0.5 * static_cast<double>(a_.tail_span) - inner,
-                1.05 * chord,
-                0.6 * chord,
-                0.2 * chord / static_cast<double>(a_.tail_span),
-                0.1};
+                .leading_edge = {end + 0.015 * length_ + 1.05 * chord, side * inner, root.z + 0.3 * root.half_height},
+                .out = {0, side, 0},
+                .up = {0, 0, 1},
+                .span = 0.5 * static_cast<double>(a_.tail_span) - inner,
+                .root_chord = 1.05 * chord,
+                .tip_chord = 0.6 * chord,
+                .sweep_tangent = 0.2 * chord / static_cast<double>(a_.tail_span),
+                .thickness = 0.1};
             append_wing(fuselage, plane, 0, 1, a_.segments, key_, tail_);
         }
         const double fin = static_cast<double>(a_.fin_height) * (a_.is_inverted ? 0.33 : 1.0);
         const double foot = 0.5 * root.half_height;
-        const aerofoil_surface rudder{{end + 1.35 * chord, 0, root.z + foot},  {0, 0, 1},   {0, 1, 0},
-                                      fin + root.half_height - foot,           1.3 * chord, 0.75 * chord,
-                                      0.45 * chord / (fin + root.half_height), 0.1};
+        const aerofoil_surface rudder{.leading_edge = {end + 1.35 * chord, 0, root.z + foot},
+                                      .out = {0, 0, 1},
+                                      .up = {0, 1, 0},
+                                      .span = fin + root.half_height - foot,
+                                      .root_chord = 1.3 * chord,
+                                      .tip_chord = 0.75 * chord,
+                                      .sweep_tangent = 0.45 * chord / (fin + root.half_height),
+                                      .thickness = 0.1};
         append_wing(fuselage, rudder, 0, 1, a_.segments, key_, tail_);
     }
 
@@ -20771,6 +20778,7 @@ inline compound to_compound(const aeroplane& a) {
     return out;
 }
 
+/// The parts as one mesh.
 /// @throws invalid_input as `validate` does
 inline mesh to_mesh(const aeroplane& a) {
     return to_mesh(to_compound(a));
@@ -21699,6 +21707,7 @@ inline compound to_compound(const hull& h) {
     return out;
 }
 
+/// The parts as one mesh.
 /// @throws invalid_input as `validate` does
 inline mesh to_mesh(const hull& h) {
     return to_mesh(to_compound(h));
@@ -21778,6 +21787,7 @@ inline void validate(const lobster_pot& p) {
     detail::require_segments("lobster_pot.segments", p.segments, 6, 256);
 }
 
+/// The parts as one mesh.
 /// @throws invalid_input as `validate` does
 inline mesh to_mesh(const lobster_pot& p) {
     validate(p);
