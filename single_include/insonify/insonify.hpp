@@ -5705,17 +5705,25 @@ struct uninitialized_mesh {
     operator mesh_view() const { return {positions, normals, triangles}; }
 };
 
+[[noreturn]] inline void refuse_index(std::uint32_t index, std::size_t positions) {
+    refuse("mesh.triangles", index, "an index below " + to_text(positions) + ", the number of positions");
+}
+/// @throws invalid_input if normals are neither absent nor one per position
+inline void require_normals(const mesh_view& m) {
+    if (m.normals.empty() || m.normals.size() == m.positions.size()) return;
+    refuse("mesh.normals.size()", m.normals.size(), "0 or " + to_text(m.positions.size()) + ", one per position");
+}
+
 }  // namespace detail::inline INSONIFY_FLAGS
 
 inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input if an index has no position, or normals are neither absent nor one per position
 inline void validate(const mesh& m) {
-    detail::require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()",
-                    m.normals.size(), "0 or one per position");
+    detail::require_normals(m);
     for (const glm::uvec3& t : m.triangles) {
         const std::uint32_t largest = t.x > t.y ? (t.x > t.z ? t.x : t.z) : (t.y > t.z ? t.y : t.z);
-        detail::require(largest < m.positions.size(), "mesh.triangles", largest, "an index of a position");
+        if (largest >= m.positions.size()) detail::refuse_index(largest, m.positions.size());
     }
 }
 
@@ -11783,7 +11791,7 @@ void require_indices(const mesh_view& m, E& ex) {
         bad[first / grain] = bad_index(m.triangles.subspan(first, last - first), m.positions.size(), best_isa());
     });
     for (const auto& index : bad)
-        if (index) refuse("mesh.triangles", *index, "an index of a position");
+        if (index) refuse_index(*index, m.positions.size());
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -13441,7 +13449,7 @@ class screen_mesh {
             s.missed = s.triangles - (s.drawn + s.culled + s.degenerate + s.not_finite);
         });
         for (const assembled_chunk& c : chunks)
-            if (c.bad_index) detail::refuse("mesh.triangles", *c.bad_index, "an index of a position");
+            if (c.bad_index) refuse_index(*c.bad_index, m.positions.size());
 
         dynamic_array<tile_runs> runs;
         runs.reserve(chunks.size());
@@ -14594,8 +14602,7 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& shader, image_view
                       const draw_options<Depth>& options, E& ex, Record* records, Finish&& finish) {
     using real = std::conditional_t<Depth == depth_precision::exact, double, float>;
     check(options, depth);
-    require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()", m.normals.size(),
-            "0 or one per position");
+    require_normals(m);
     if (depth.empty()) return {};
     const pixel_grid grid{options.subpixel_bits, depth.width(), depth.height()};
     const tile_grid tiles(grid.width, grid.height, std::countr_zero(static_cast<unsigned>(options.tile)));
