@@ -65,8 +65,10 @@ in::scene wreck_on_gravel() {
                                                    .segments = 6,
                                                    .seed = static_cast<std::uint32_t>(i)});
         const bool is_near = i < 35;
-        const glm::dvec3 at(is_near ? dice.uniform(5, 16) : dice.uniform(-27, 27),
-                            is_near ? dice.uniform(4, 20) : dice.uniform(0, 27), 0);
+        // One draw a statement: compilers evaluate arguments in different orders.
+        const double y = is_near ? dice.uniform(4, 20) : dice.uniform(0, 27);
+        const double x = is_near ? dice.uniform(5, 16) : dice.uniform(-27, 27);
+        const glm::dvec3 at(x, y, 0);
         scene.add(stone, in::rest_on(ground, stone, {.position = at}), "stone", {1});
     }
     return scene;

@@ -28,7 +28,8 @@ void write_text(insonify::image<Pixel>& sheet, int x, int y, std::string text, c
         const corner &from = corners[4 * q], &to = corners[4 * q + 2];
         for (int v = static_cast<int>(from.y); v < static_cast<int>(to.y); ++v)
             for (int u = static_cast<int>(from.x); u < static_cast<int>(to.x); ++u)
-                if (x + u < sheet.width() && y + v < sheet.height()) sheet(x + u, y + v) = color;
+                if (x + u >= 0 && x + u < sheet.width() && y + v >= 0 && y + v < sheet.height())
+                    sheet(x + u, y + v) = color;
     }
 }
 

@@ -10,8 +10,8 @@ namespace generator {
 
 using json = nlohmann::ordered_json;
 
-/// Collects the images of the page. Of a large set it keeps every 2nd, 4th, 8th ... image, as many as a browser can
-/// hold.
+/// Collects the images of the page. Of a large set it keeps every 2nd, 4th, 8th ... image, at most 20 000 of them,
+/// which a browser can hold.
 class preview_page {
   public:
     void add(const json& record);

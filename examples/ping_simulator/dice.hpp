@@ -23,7 +23,9 @@ class dice {
     std::size_t below(std::size_t count) { return static_cast<std::size_t>(uniform() * static_cast<double>(count)); }
     /// A circular complex Gaussian number of unit power.
     std::complex<double> gaussian() {
-        return std::polar(std::sqrt(-std::log(uniform())), uniform(0, 2 * std::numbers::pi));
+        // One draw a statement: compilers evaluate arguments in different orders.
+        const double phase = uniform(0, 2 * std::numbers::pi);
+        return std::polar(std::sqrt(-std::log(uniform())), phase);
     }
 
   private:

@@ -60,7 +60,8 @@ inline scene make_scene(std::uint64_t seed, std::uint64_t index, std::size_t kin
 
     if (seabed == "ripples") {
         const double wavelength = random.uniform(0.3, 1);
-        s.ground.ripple(wavelength, wavelength * random.uniform(0.05, 0.12), random.uniform(0, full_turn), random);
+        const double direction = random.uniform(0, full_turn), height = wavelength * random.uniform(0.05, 0.12);
+        s.ground.ripple(wavelength, height, direction, random);
     }
     s.ground.undulate(random.uniform(0.002, 0.006), random);
 

@@ -35,7 +35,9 @@ class target_field {
         const auto coordinate = [&](std::int64_t cell) {
             return (static_cast<double>(cell) + random.uniform(0.15, 0.85)) * spacing_;
         };
-        const glm::dvec2 place(coordinate(at.first), coordinate(at.second));
+        // One draw a statement: compilers evaluate arguments in different orders.
+        const double y = coordinate(at.second), x = coordinate(at.first);
+        const glm::dvec2 place(x, y);
         const auto size = static_cast<float>(random.uniform(0.5, 1.0));
         const auto yaw = static_cast<float>(random.uniform(0, 2 * in::numeric::pi));
         const auto lie = [&](const auto& shape, const char* name) {

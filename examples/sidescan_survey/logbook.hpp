@@ -53,7 +53,8 @@ class logbook {
         const glm::dvec3& p = f.at.position;
         const double over = p.z - static_cast<double>(in::seabed::at(bottom_, p.x, p.y).height);
         const double turns = -f.at.yaw / (2 * in::numeric::pi);  // a compass goes clockwise
-        const double heading = 360 * (turns - static_cast<double>(in::numeric::floor_to_int(turns)));
+        const double degrees = 360 * (turns - static_cast<double>(in::numeric::floor_to_int(turns)));
+        const double heading = degrees < 359.9995 ? degrees : 0;  // three decimals would be 360.000
         navigation_.line(std::to_string(f.number) +
                          format(",%.4f,%.3f,%.3f,%.3f,%.3f,%.3f", f.time, p.x, p.y, p.z, over, heading));
         map_.mark(glm::dvec2(p), {20, 40, 160}, 1);

@@ -124,6 +124,11 @@ class Survey(unittest.TestCase):
         track = list(csv.DictReader((self.folder / "a" / "navigation.csv").read_text().splitlines()))
         self.assertLess(abs(float(track[-1]["x_m"]) - 8), 2.5)
         self.assertLess(abs(float(track[-1]["y_m"]) - 10), 2.5)
+        # A hair west of north is a heading of 0, not 360.
+        (self.folder / "points.csv").write_text("0,0\n-1e-7,10\n")
+        run(*out, "--waypoints", self.folder / "points.csv")
+        north = csv.DictReader((self.folder / "a" / "navigation.csv").read_text().splitlines())
+        self.assertEqual({ping["heading_deg"] for ping in north}, {"0.000"})
         (self.folder / "points.csv").write_text("here,there\n")
         self.assertIn("is not x,y", run(*out, "--waypoints", self.folder / "points.csv", expect=1))
         for text in "0,0\n1,2,3\n", "0,0\nnan,1\n", "0,0\n1e9,1\n", "0,0\n1;1\n", "0,0\n1\n2,2\n":

@@ -1460,7 +1460,7 @@ enum class isa {
     scalar,    ///< one value at a time, in builds with INSONIFY_SIMD=0; other builds use `baseline` instead
     baseline,  ///< the 128-bit vectors that every processor of the target has (SSE2, NEON)
     avx2,      ///< 256-bit integer and float vectors
-    avx512,    ///< 512-bit ones (F, BW, DQ and VL), for kernels that gain by them
+    avx512,    ///< 512-bit ones (F, BW, DQ and VL), for kernels that gain from them
 };
 
 inline namespace INSONIFY_ONCE {
@@ -1496,6 +1496,7 @@ INSONIFY_TARGET("avx2")
 void run_avx2(const Kernel& kernel) {
     kernel.template run<8>();
 }
+// AVX-512F includes fused multiply-add, AVX2 does not.
 template <class Kernel>
 INSONIFY_TARGET("avx512f,avx512bw,avx512dq,avx512vl")
 INSONIFY_NEVER_FUSED void run_avx512(const Kernel& kernel) {
@@ -1898,7 +1899,7 @@ INSONIFY_INLINE void to_double(lanes<double, N>& into, const lanes<std::uint64_t
     into = into - 0x1p52;
 }
 
-/// numeric::log for normal numbers above 0, operation by operation.
+/// Natural logarithm of normal numbers above 0, by the operations of numeric::log, to the same bits.
 template <int N>
 INSONIFY_INLINE void log_lanes(lanes<double, N>& into, const lanes<double, N>& x) {
     using doubles = lanes<double, N>;
@@ -1923,8 +1924,8 @@ INSONIFY_INLINE void log_lanes(lanes<double, N>& into, const lanes<double, N>& x
     into = k * ln2_high - ((half_square - (s * (half_square + 2.0 * t * tail) + k * ln2_low)) - f);
 }
 
-/// ln(2^k (1 + f)) for whole k and sqrt(1/2) - 1 <= f <= sqrt(2) - 1, relative error below 2e-7; the sum of
-/// numeric::log.
+/// ln(2^k (1 + f)) for whole k and sqrt(1/2) - 1 <= f <= sqrt(2) - 1, relative error below 2e-7; summed in
+/// the order of numeric::log.
 template <int N>
 INSONIFY_INLINE void log_lanes(lanes<float, N>& into, const lanes<float, N>& k, const lanes<float, N>& f) {
     using floats = lanes<float, N>;
@@ -2010,7 +2011,7 @@ INSONIFY_INLINE void cos_sin_turns(lanes<float, N>& cosine, lanes<float, N>& sin
     cosine = 1.0f - 2.0f * s * s;
 }
 
-/// Correctly rounded.
+/// Square root, correctly rounded.
 template <int N>
 INSONIFY_INLINE void square_root(lanes<double, N>& into, const lanes<double, N>& of) {
 #if INSONIFY_SIMD && defined(__SSE2__)
@@ -5704,17 +5705,25 @@ struct uninitialized_mesh {
     operator mesh_view() const { return {positions, normals, triangles}; }
 };
 
+[[noreturn]] inline void refuse_index(std::uint32_t index, std::size_t positions) {
+    refuse("mesh.triangles", index, "an index below " + to_text(positions) + ", the number of positions");
+}
+/// @throws invalid_input if normals are neither absent nor one per position
+inline void require_normals(const mesh_view& m) {
+    if (m.normals.empty() || m.normals.size() == m.positions.size()) return;
+    refuse("mesh.normals.size()", m.normals.size(), "0 or " + to_text(m.positions.size()) + ", one per position");
+}
+
 }  // namespace detail::inline INSONIFY_FLAGS
 
 inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input if an index has no position, or normals are neither absent nor one per position
 inline void validate(const mesh& m) {
-    detail::require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()",
-                    m.normals.size(), "0 or one per position");
+    detail::require_normals(m);
     for (const glm::uvec3& t : m.triangles) {
         const std::uint32_t largest = t.x > t.y ? (t.x > t.z ? t.x : t.z) : (t.y > t.z ? t.y : t.z);
-        detail::require(largest < m.positions.size(), "mesh.triangles", largest, "an index of a position");
+        if (largest >= m.positions.size()) detail::refuse_index(largest, m.positions.size());
     }
 }
 
@@ -5878,15 +5887,23 @@ struct camera {
 inline namespace INSONIFY_FLAGS {
 
 /// From the world to the camera's frame: x right, y up, z towards the viewer.
-/// @throws invalid_input for a coordinate that is not finite, an eye at the target, or `up` along the line of sight
+/// @throws invalid_input for a coordinate that is not finite, an eye at the target, or an `up` of no length or
+///         along the line of sight
 inline affine look_at(const camera& c) {
     detail::require_finite("camera.eye", c.eye);
     detail::require_finite("camera.target", c.target);
     detail::require_finite("camera.up", c.up);
-    const glm::dvec3 back = detail::unit(c.eye - c.target), right = detail::unit(numeric::cross(c.up, back));
-    const double turned = numeric::dot(right, right);
-    detail::require(turned > 0.5 && numeric::is_finite(turned), "length of up x line of sight", turned, "above 0");
-    const glm::dvec3 up = numeric::cross(back, right);
+    const glm::dvec3 line = c.eye - c.target;
+    const double distance = numeric::square_root(numeric::dot(line, line)),
+                 length = numeric::square_root(numeric::dot(c.up, c.up));
+    detail::require(distance > 0 && numeric::is_finite(distance), "distance from camera.eye to camera.target", distance,
+                    "above 0, finite");
+    detail::require(length > 0 && numeric::is_finite(length), "length of camera.up", length, "above 0, finite");
+    const glm::dvec3 back = line / distance, across = numeric::cross(c.up, back);
+    const double width = numeric::square_root(numeric::dot(across, across)), sine = width / length;
+    // Rounding leaves a sine of up to 1e-15 between parallel vectors.
+    detail::require(sine > 1e-12, "sine of the angle from camera.up to the line of sight", sine, "above 1e-12");
+    const glm::dvec3 right = across / width, up = numeric::cross(back, right);
     const glm::dmat3 linear(glm::dvec3(right.x, up.x, back.x), glm::dvec3(right.y, up.y, back.y),
                             glm::dvec3(right.z, up.z, back.z));
     return {linear, -numeric::product(linear, c.eye)};
@@ -5902,7 +5919,7 @@ class camera_view {
         detail::require(c.field_of_view > 0 && static_cast<double>(c.field_of_view) < numeric::pi,
                         "camera.field_of_view", c.field_of_view, "above 0 and below pi");
         detail::require_positive("camera.aspect", c.aspect);
-        detail::require(c.z_near > 0 && numeric::is_finite(c.z_near), "camera.z_near", c.z_near, "metres above 0");
+        detail::require_positive("camera.z_near", c.z_near);
         const double scale = 1 / numeric::tan(0.5 * static_cast<double>(c.field_of_view));
         scale_ = {static_cast<float>(scale / static_cast<double>(c.aspect)), static_cast<float>(scale)};
     }
@@ -6411,7 +6428,7 @@ inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
     return numeric::is_finite(point) ? merge(box, {point, point}) : box;
 }
 
-/// The smallest box, along the axes of the frame that `map` leads to, around a box.
+/// The smallest box around a box that `map` transforms.
 inline bounding_box transformed(const bounding_box& box, const affine& map) {
     bounding_box around;
     for (int i = 0; i < 8; ++i) around = include(around, transform_point(map, box.corner(i)));
@@ -11258,7 +11275,7 @@ struct side_scan_rig {
     float ping_spacing = 0.04f;  ///< metres of track from one ping to the next, > 0
     int pings = 1024;            ///< 1 to 2^20
     float first_range = 0;       ///< start of the first bin, metres, >= 0
-    float range = 40;            ///< end of the last bin, metres
+    float range = 40;            ///< end of the last bin, metres, > first_range, at most 10^5
     int bins = 2048;             ///< 1 to 2^20
     insonify::side side = insonify::side::starboard;
 
@@ -11300,6 +11317,7 @@ ping ping_of(const side_scan_rig<Axis>& rig, int number) {
 }
 
 /// All pings of the rig's track, in order.
+/// @throws invalid_input for a value of the rig out of range
 template <across_track Axis>
 std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
     validate(rig);
@@ -11773,7 +11791,7 @@ void require_indices(const mesh_view& m, E& ex) {
         bad[first / grain] = bad_index(m.triangles.subspan(first, last - first), m.positions.size(), best_isa());
     });
     for (const auto& index : bad)
-        if (index) refuse("mesh.triangles", *index, "an index of a position");
+        if (index) refuse_index(*index, m.positions.size());
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -13431,7 +13449,7 @@ class screen_mesh {
             s.missed = s.triangles - (s.drawn + s.culled + s.degenerate + s.not_finite);
         });
         for (const assembled_chunk& c : chunks)
-            if (c.bad_index) detail::refuse("mesh.triangles", *c.bad_index, "an index of a position");
+            if (c.bad_index) refuse_index(*c.bad_index, m.positions.size());
 
         dynamic_array<tile_runs> runs;
         runs.reserve(chunks.size());
@@ -14584,8 +14602,7 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& shader, image_view
                       const draw_options<Depth>& options, E& ex, Record* records, Finish&& finish) {
     using real = std::conditional_t<Depth == depth_precision::exact, double, float>;
     check(options, depth);
-    require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()", m.normals.size(),
-            "0 or one per position");
+    require_normals(m);
     if (depth.empty()) return {};
     const pixel_grid grid{options.subpixel_bits, depth.width(), depth.height()};
     const tile_grid tiles(grid.width, grid.height, std::countr_zero(static_cast<unsigned>(options.tile)));
@@ -17235,7 +17252,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Marks pixels, eight to a byte; rows start a byte.
+/// One bit for each pixel, eight to a byte; each row starts at a byte.
 class pixel_marks {
   public:
     pixel_marks() = default;
@@ -17340,7 +17357,7 @@ class undecided_light {
     }
 
   private:
-    /// Of the pixels of a tile.
+    /// The entries of a tile in `pixels_`: `count` of at most `room`, from index `start`.
     struct list {
         std::size_t start, count, room;
     };
@@ -20303,6 +20320,7 @@ inline merged_compound merge(const compound& c) {
     return out;
 }
 
+/// The parts as one mesh, without their reflectivities.
 /// @throws invalid_input as `merge` does
 inline mesh to_mesh(const compound& c) {
     return merge(c).shape;
@@ -20440,11 +20458,11 @@ inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// A wing, tailplane or fin: straight edges from root to tip, the tip rounded. `out` is a unit vector along its span,
-/// `up` across its chord; the chord runs towards -x.
+/// `up` across its chord; the chord runs towards -x. Lengths are metres.
 struct aerofoil_surface {
     glm::dvec3 leading_edge;  // at the root
     glm::dvec3 out, up;
-    double span, root_chord, tip_chord, sweep_tangent, thickness;
+    double span, root_chord, tip_chord, sweep_tangent, thickness;  // the last as a share of the chord
 };
 
 /// One wing's cross section, from the upper trailing edge round the nose to the lower one.
@@ -20554,7 +20572,7 @@ inline void append_propeller(mesh& into, const propeller& p, int corners) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/objects/aeroplane.hpp ---------------------------------------------------
-// Aeroplanes, whole, without wings or tail, or on their back.
+// Aeroplanes: whole, with wings or tail torn off, or inverted.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -20636,14 +20654,14 @@ class aeroplane_builder {
         const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(a_.dihedral));
         const double half = 0.5 * static_cast<double>(a_.span), inner = 0.15 * radius_;
         // Roots of both wings lie inside the fuselage, apart from each other.
-        return {{static_cast<double>(a_.wing_position) * length_, side * inner, -0.45 * radius_},
-                {0, side * cosine, sine},
-                {0, 0, 1},  // sections stay upright, so that the tips lie at the span
-                (half - inner) / cosine,
-                static_cast<double>(a_.root_chord),
-                static_cast<double>(a_.tip_chord),
-                numeric::tan(static_cast<double>(a_.sweep)) * cosine,
-                0.15};
+        return {.leading_edge = {static_cast<double>(a_.wing_position) * length_, side * inner, -0.45 * radius_},
+                .out = {0, side * cosine, sine},
+                .up = {0, 0, 1},  // sections stay upright, so that the tips lie at the span
+                .span = (half - inner) / cosine,
+                .root_chord = static_cast<double>(a_.root_chord),
+                .tip_chord = static_cast<double>(a_.tip_chord),
+                .sweep_tangent = numeric::tan(static_cast<double>(a_.sweep)) * cosine,
+                .thickness = 0.15};
     }
 
     void build_wings() {
@@ -20709,21 +20727,26 @@ class aeroplane_builder {
         for (const double side : {1.0, -1.0}) {
             const double inner = 0.1 * root.half_width;
             const aerofoil_surface plane{
-                {end + 0.015 * length_ + 1.05 * chord, side * inner, root.z + 0.3 * root.half_height},
-                {0, side, 0},
-                {0, 0, 1},
-                0.5 * static_cast<double>(a_.tail_span) - inner,
-                1.05 * chord,
-                0.6 * chord,
-                0.2 * chord / static_cast<double>(a_.tail_span),
-                0.1};
+                .leading_edge = {end + 0.015 * length_ + 1.05 * chord, side * inner, root.z + 0.3 * root.half_height},
+                .out = {0, side, 0},
+                .up = {0, 0, 1},
+                .span = 0.5 * static_cast<double>(a_.tail_span) - inner,
+                .root_chord = 1.05 * chord,
+                .tip_chord = 0.6 * chord,
+                .sweep_tangent = 0.2 * chord / static_cast<double>(a_.tail_span),
+                .thickness = 0.1};
             append_wing(fuselage, plane, 0, 1, a_.segments, key_, tail_);
         }
         const double fin = static_cast<double>(a_.fin_height) * (a_.is_inverted ? 0.33 : 1.0);
         const double foot = 0.5 * root.half_height;
-        const aerofoil_surface rudder{{end + 1.35 * chord, 0, root.z + foot},  {0, 0, 1},   {0, 1, 0},
-                                      fin + root.half_height - foot,           1.3 * chord, 0.75 * chord,
-                                      0.45 * chord / (fin + root.half_height), 0.1};
+        const aerofoil_surface rudder{.leading_edge = {end + 1.35 * chord, 0, root.z + foot},
+                                      .out = {0, 0, 1},
+                                      .up = {0, 1, 0},
+                                      .span = fin + root.half_height - foot,
+                                      .root_chord = 1.3 * chord,
+                                      .tip_chord = 0.75 * chord,
+                                      .sweep_tangent = 0.45 * chord / (fin + root.half_height),
+                                      .thickness = 0.1};
         append_wing(fuselage, rudder, 0, 1, a_.segments, key_, tail_);
     }
 
@@ -20762,6 +20785,7 @@ inline compound to_compound(const aeroplane& a) {
     return out;
 }
 
+/// The parts as one mesh.
 /// @throws invalid_input as `validate` does
 inline mesh to_mesh(const aeroplane& a) {
     return to_mesh(to_compound(a));
@@ -21690,6 +21714,7 @@ inline compound to_compound(const hull& h) {
     return out;
 }
 
+/// The parts as one mesh.
 /// @throws invalid_input as `validate` does
 inline mesh to_mesh(const hull& h) {
     return to_mesh(to_compound(h));
@@ -21769,6 +21794,7 @@ inline void validate(const lobster_pot& p) {
     detail::require_segments("lobster_pot.segments", p.segments, 6, 256);
 }
 
+/// The parts as one mesh.
 /// @throws invalid_input as `validate` does
 inline mesh to_mesh(const lobster_pot& p) {
     validate(p);
@@ -26627,7 +26653,7 @@ template <class T>
 image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill = T{}) {
     detail::require_equal("right.height()", right.height(), left.height(), "the height of the left picture");
     const std::int64_t widest = (std::numeric_limits<int>::max)() - std::int64_t{left.width()} - right.width();
-    detail::require_range("gap", std::int64_t{gap}, 0, widest, "0 to 2^31 - 1, with both pictures");
+    detail::require_range("gap", std::int64_t{gap}, 0, widest, "0 or more, for a total width below 2^31");
     image<T> out(left.width() + gap + right.width(), left.height(), fill);
     for (int y = 0; y < left.height(); ++y) {
         std::copy(left.row(y).begin(), left.row(y).end(), out.row(y).begin());
@@ -26846,10 +26872,10 @@ inline namespace INSONIFY_FLAGS {
 /// Laws by label.
 using speckle_laws = std::array<speckle_law, seabed::label_count>;
 
-/// Marks labels that take the law of the seabed's model.
+/// `looks` of a label that takes the law that the seabed's model states.
 inline constexpr int looks_by_seabed_model = -1;
 
-/// The registry's laws; labels outside of the registry take those of the seabed's model.
+/// The registry's laws; labels outside of the registry take those that the seabed's model states.
 constexpr speckle_laws default_speckle() {
     speckle_laws laws{};
     laws.fill({looks_by_seabed_model});
@@ -26961,7 +26987,7 @@ inline namespace INSONIFY_FLAGS {
 /// Applies speckle to an image of mean intensities.
 ///
 /// @param mean     intensities; 0 stays 0
-/// @param types    a seabed::type for each pixel, as in labels::seabed; others are `elsewhere`
+/// @param types    the label of each pixel, as in labels::seabed; those without a law take that of `elsewhere`
 /// @param numbers  ping numbers of the rows
 /// @throws invalid_input for images of different sizes or a parameter out of its range
 template <executor_argument E = serial_executor>
@@ -26970,7 +26996,7 @@ image<float> with_speckle(image_view<const float> mean, image_view<const std::ui
     return detail::speckled(mean, types, s, numbers, executor_ref(ex));
 }
 
-/// Speckle with the laws of the seabed's model for labels that have none.
+/// Fills in the laws that the seabed's model states for labels that have none in `s`.
 /// @param legend  as labels::legend
 inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type_properties> legend) {
     for (const seabed::type_properties& t : legend) {
@@ -26980,11 +27006,16 @@ inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type
     return s;
 }
 
-/// The recording with speckle, by its own ping numbers and legend.
+/// The recording, of one side or both, with speckle by its own ping numbers and legend.
+/// @throws invalid_input for labels of another size than the image, rows that are not pings, more columns to port than
+///         there are, or a parameter out of its range
 template <executor_argument E = serial_executor>
 frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex = {}) {
-    const seabed_speckle completed = with_legend(s, r.labels.legend);
     const int port = r.rows.port_columns;
+    detail::require_range("rows.port_columns", port, 0, r.image.width(), "0 to the width of the recording");
+    detail::require_equal("labels.seabed.width()", r.labels.seabed.width(), r.image.width(), "that of the image");
+    detail::require_equal("labels.seabed.height()", r.labels.seabed.height(), r.image.height(), "that of the image");
+    const seabed_speckle completed = with_legend(s, r.labels.legend);
     if (port == 0) {
         r.image = with_speckle(r.image.view(), r.labels.seabed.view(), completed, r.rows, ex);
         return r;
@@ -27030,14 +27061,14 @@ inline namespace INSONIFY_FLAGS {
 /// Levels in decibels, added to the seabed's. No variation if all are 0.
 struct bottom_tone {
     float drift = 0;            ///< rms of the drift, 0 to 30
-    float drift_length = 20;    ///< metres between nodes of its coarsest octave, above 0
+    float drift_length = 20;    ///< metres between nodes of its coarsest octave, 1e-4 to 1e9
     int octaves = 3;            ///< each of half the length and half the level of the one before, 1 to 8
     float streaks = 0;          ///< rms of streaks, 0 to 30
-    float streak_width = 1.5f;  ///< metres between nodes across them, above 0
-    float streak_length = 40;   ///< metres between nodes along them, above 0
-    float direction = 0;        ///< radians from +x: along the streaks
+    float streak_width = 1.5f;  ///< metres between nodes across them, 1e-4 to 1e9
+    float streak_length = 40;   ///< metres between nodes along them, 1e-4 to 1e9
+    float direction = 0;        ///< of the streaks, radians from +x
     float patches = 0;          ///< level of patches relative to the rest, -30 to 30
-    float patch_size = 15;      ///< metres between the nodes of their outline, above 0
+    float patch_size = 15;      ///< metres between nodes of their outline, 1e-4 to 1e9
     float patch_share = 0.3f;   ///< of the area, 0.01 to 0.99
     std::uint64_t seed = 1;
 
@@ -27111,7 +27142,8 @@ class tone_sampler {
     double scale_ = 0, threshold_ = 0;
 };
 
-/// Multiplies a recording's echoes of the seabed by a tone. `ping_at(number)` is the ping of that number.
+/// Multiplies a recording's echoes of the seabed by a tone.
+/// @param ping_at  ping_at(number) is the ping of that number; it throws if there is none
 template <across_track Axis, class PingAt>
 void apply_tone(frame<labels>& r, const PingAt& ping_at, const side_scan_rig<Axis>& rig, const bottom_tone& tone,
                 executor_ref ex) {
@@ -27119,8 +27151,9 @@ void apply_tone(frame<labels>& r, const PingAt& ping_at, const side_scan_rig<Axi
     const bool are_labelled =
         r.labels.seabed.width() == r.image.width() && r.labels.seabed.height() == r.image.height();
     require(are_labelled, "labels.seabed.size()", r.labels.seabed.size(), "that of the image");
+    const auto number_of = [&](int y) { return r.rows.first + std::int64_t{r.rows.step} * y; };
     for (int y = 0; y < r.image.height(); ++y) {
-        const std::int64_t number = r.rows.first + std::int64_t{r.rows.step} * y;
+        const std::int64_t number = number_of(y);
         const ping at = ping_at(number);
         const std::string name = element_name("track", number);
         validate(at, name);
@@ -27133,7 +27166,7 @@ void apply_tone(frame<labels>& r, const PingAt& ping_at, const side_scan_rig<Axi
     bulk_ranges(ex, static_cast<std::size_t>(r.image.height()), 16, [&](std::size_t from, std::size_t to) {
         for (std::size_t i = from; i < to; ++i) {
             const int y = static_cast<int>(i);
-            const ping at = ping_at(r.rows.first + r.rows.step * y);
+            const ping at = ping_at(number_of(y));
             const ping_frame frame(at, rig.side);
             const double altitude = at.position.z;
             const auto row = r.image.row(y);
@@ -27156,7 +27189,8 @@ void apply_tone(frame<labels>& r, const PingAt& ping_at, const side_scan_rig<Axi
 inline namespace INSONIFY_FLAGS {
 
 /// The level that a tone adds at a position, decibels.
-/// @throws invalid_input for a parameter out of its range, or a position that is not finite
+/// @param position  metres in the world
+/// @throws invalid_input for a parameter out of its range, or a position that is not within 10^12 metres of the origin
 inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
     detail::require_range("position.x", position.x, -1e12, 1e12, "within 10^12 metres");
     detail::require_range("position.y", position.y, -1e12, 1e12, "within 10^12 metres");
@@ -27166,9 +27200,9 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 /// Applies a tone to a recording: pixels with a seabed label change by the level at their position on the datum.
 /// Targets and the water column stay.
 ///
-/// @param r    a result of `render` with this rig, before noise and speckle
+/// @param r  a result of `render` with this rig, before noise and speckle
 /// @throws invalid_input for a rig or a parameter out of its range, or a recording of another width, without labels or
-///         with pings beyond 2^31
+///         with ping numbers beyond 2^31
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
@@ -27191,11 +27225,11 @@ template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, std::span<const ping> track, const side_scan_rig<Axis>& rig,
                         const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
-    const std::int64_t one_end = r.rows.first, other_end = one_end + std::int64_t{r.rows.step} * (r.image.height() - 1);
-    detail::require(r.image.height() == 0 || ((std::min)(one_end, other_end) >= 0 &&
-                                              (std::max)(one_end, other_end) < static_cast<std::int64_t>(track.size())),
-                    "track.size()", track.size(), "a ping for each row of the recording");
-    const auto ping_at = [&](std::int64_t number) { return track[static_cast<std::size_t>(number)]; };
+    const auto ping_at = [&](std::int64_t number) {
+        detail::require(number >= 0 && number < static_cast<std::int64_t>(track.size()), "track.size()", track.size(),
+                        "a ping for each row of the recording");
+        return track[static_cast<std::size_t>(number)];
+    };
     detail::apply_tone(r, ping_at, rig, tone, executor_ref(ex));
     return r;
 }

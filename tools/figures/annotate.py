@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the pictures of README.md and the guide from the programs' output: annotate.py <folder of the programs> <docs/guide>
+"""Makes the pictures of README.md and the guide from the programs' output: annotate.py <folder of the output> <docs/guide>
 
 Adds a margin with the direction of the sound and a scale bar, and stores few levels, so that each file stays small.
 """
@@ -139,7 +139,7 @@ def front(source, target):
     for k, (words, panel, metres) in enumerate(panels):
         left = k * (width + 10)
         sheet.paste(copper(panel.resize((width, height), Image.Resampling.BOX)), (left, 0))
-        for mark in range(-int(metres) // 10 * 10 + (10 if metres % 10 else 0), int(metres) + 1, 10):
+        for mark in range(-int(metres / 10) * 10, int(metres) + 1, 10):
             x = left + width / 2 + mark * width / (2 * metres)
             draw.line([(x, height), (x, height + 4)], INK)
             text(draw, min(max(x, left + 7), left + width - 7), height + 6, str(abs(mark)))

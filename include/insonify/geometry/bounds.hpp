@@ -113,7 +113,7 @@ inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
     return numeric::is_finite(point) ? merge(box, {point, point}) : box;
 }
 
-/// The smallest box, along the axes of the frame that `map` leads to, around a box.
+/// The smallest box around a box that `map` transforms.
 inline bounding_box transformed(const bounding_box& box, const affine& map) {
     bounding_box around;
     for (int i = 0; i < 8; ++i) around = include(around, transform_point(map, box.corner(i)));

@@ -30,15 +30,23 @@ struct camera {
 inline namespace INSONIFY_FLAGS {
 
 /// From the world to the camera's frame: x right, y up, z towards the viewer.
-/// @throws invalid_input for a coordinate that is not finite, an eye at the target, or `up` along the line of sight
+/// @throws invalid_input for a coordinate that is not finite, an eye at the target, or an `up` of no length or
+///         along the line of sight
 inline affine look_at(const camera& c) {
     detail::require_finite("camera.eye", c.eye);
     detail::require_finite("camera.target", c.target);
     detail::require_finite("camera.up", c.up);
-    const glm::dvec3 back = detail::unit(c.eye - c.target), right = detail::unit(numeric::cross(c.up, back));
-    const double turned = numeric::dot(right, right);
-    detail::require(turned > 0.5 && numeric::is_finite(turned), "length of up x line of sight", turned, "above 0");
-    const glm::dvec3 up = numeric::cross(back, right);
+    const glm::dvec3 line = c.eye - c.target;
+    const double distance = numeric::square_root(numeric::dot(line, line)),
+                 length = numeric::square_root(numeric::dot(c.up, c.up));
+    detail::require(distance > 0 && numeric::is_finite(distance), "distance from camera.eye to camera.target", distance,
+                    "above 0, finite");
+    detail::require(length > 0 && numeric::is_finite(length), "length of camera.up", length, "above 0, finite");
+    const glm::dvec3 back = line / distance, across = numeric::cross(c.up, back);
+    const double width = numeric::square_root(numeric::dot(across, across)), sine = width / length;
+    // Rounding leaves a sine of up to 1e-15 between parallel vectors.
+    detail::require(sine > 1e-12, "sine of the angle from camera.up to the line of sight", sine, "above 1e-12");
+    const glm::dvec3 right = across / width, up = numeric::cross(back, right);
     const glm::dmat3 linear(glm::dvec3(right.x, up.x, back.x), glm::dvec3(right.y, up.y, back.y),
                             glm::dvec3(right.z, up.z, back.z));
     return {linear, -numeric::product(linear, c.eye)};
@@ -54,7 +62,7 @@ class camera_view {
         detail::require(c.field_of_view > 0 && static_cast<double>(c.field_of_view) < numeric::pi,
                         "camera.field_of_view", c.field_of_view, "above 0 and below pi");
         detail::require_positive("camera.aspect", c.aspect);
-        detail::require(c.z_near > 0 && numeric::is_finite(c.z_near), "camera.z_near", c.z_near, "metres above 0");
+        detail::require_positive("camera.z_near", c.z_near);
         const double scale = 1 / numeric::tan(0.5 * static_cast<double>(c.field_of_view));
         scale_ = {static_cast<float>(scale / static_cast<double>(c.aspect)), static_cast<float>(scale)};
     }

@@ -46,17 +46,25 @@ struct uninitialized_mesh {
     operator mesh_view() const { return {positions, normals, triangles}; }
 };
 
+[[noreturn]] inline void refuse_index(std::uint32_t index, std::size_t positions) {
+    refuse("mesh.triangles", index, "an index below " + to_text(positions) + ", the number of positions");
+}
+/// @throws invalid_input if normals are neither absent nor one per position
+inline void require_normals(const mesh_view& m) {
+    if (m.normals.empty() || m.normals.size() == m.positions.size()) return;
+    refuse("mesh.normals.size()", m.normals.size(), "0 or " + to_text(m.positions.size()) + ", one per position");
+}
+
 }  // namespace detail::inline INSONIFY_FLAGS
 
 inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input if an index has no position, or normals are neither absent nor one per position
 inline void validate(const mesh& m) {
-    detail::require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()",
-                    m.normals.size(), "0 or one per position");
+    detail::require_normals(m);
     for (const glm::uvec3& t : m.triangles) {
         const std::uint32_t largest = t.x > t.y ? (t.x > t.z ? t.x : t.z) : (t.y > t.z ? t.y : t.z);
-        detail::require(largest < m.positions.size(), "mesh.triangles", largest, "an index of a position");
+        if (largest >= m.positions.size()) detail::refuse_index(largest, m.positions.size());
     }
 }
 

@@ -35,8 +35,7 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& shader, image_view
                       const draw_options<Depth>& options, E& ex, Record* records, Finish&& finish) {
     using real = std::conditional_t<Depth == depth_precision::exact, double, float>;
     check(options, depth);
-    require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()", m.normals.size(),
-            "0 or one per position");
+    require_normals(m);
     if (depth.empty()) return {};
     const pixel_grid grid{options.subpixel_bits, depth.width(), depth.height()};
     const tile_grid tiles(grid.width, grid.height, std::countr_zero(static_cast<unsigned>(options.tile)));

@@ -22,14 +22,14 @@ inline namespace INSONIFY_FLAGS {
 /// Levels in decibels, added to the seabed's. No variation if all are 0.
 struct bottom_tone {
     float drift = 0;            ///< rms of the drift, 0 to 30
-    float drift_length = 20;    ///< metres between nodes of its coarsest octave, above 0
+    float drift_length = 20;    ///< metres between nodes of its coarsest octave, 1e-4 to 1e9
     int octaves = 3;            ///< each of half the length and half the level of the one before, 1 to 8
     float streaks = 0;          ///< rms of streaks, 0 to 30
-    float streak_width = 1.5f;  ///< metres between nodes across them, above 0
-    float streak_length = 40;   ///< metres between nodes along them, above 0
-    float direction = 0;        ///< radians from +x: along the streaks
+    float streak_width = 1.5f;  ///< metres between nodes across them, 1e-4 to 1e9
+    float streak_length = 40;   ///< metres between nodes along them, 1e-4 to 1e9
+    float direction = 0;        ///< of the streaks, radians from +x
     float patches = 0;          ///< level of patches relative to the rest, -30 to 30
-    float patch_size = 15;      ///< metres between the nodes of their outline, above 0
+    float patch_size = 15;      ///< metres between nodes of their outline, 1e-4 to 1e9
     float patch_share = 0.3f;   ///< of the area, 0.01 to 0.99
     std::uint64_t seed = 1;
 
@@ -103,7 +103,8 @@ class tone_sampler {
     double scale_ = 0, threshold_ = 0;
 };
 
-/// Multiplies a recording's echoes of the seabed by a tone. `ping_at(number)` is the ping of that number.
+/// Multiplies a recording's echoes of the seabed by a tone.
+/// @param ping_at  ping_at(number) is the ping of that number; it throws if there is none
 template <across_track Axis, class PingAt>
 void apply_tone(frame<labels>& r, const PingAt& ping_at, const side_scan_rig<Axis>& rig, const bottom_tone& tone,
                 executor_ref ex) {
@@ -111,8 +112,9 @@ void apply_tone(frame<labels>& r, const PingAt& ping_at, const side_scan_rig<Axi
     const bool are_labelled =
         r.labels.seabed.width() == r.image.width() && r.labels.seabed.height() == r.image.height();
     require(are_labelled, "labels.seabed.size()", r.labels.seabed.size(), "that of the image");
+    const auto number_of = [&](int y) { return r.rows.first + std::int64_t{r.rows.step} * y; };
     for (int y = 0; y < r.image.height(); ++y) {
-        const std::int64_t number = r.rows.first + std::int64_t{r.rows.step} * y;
+        const std::int64_t number = number_of(y);
         const ping at = ping_at(number);
         const std::string name = element_name("track", number);
         validate(at, name);
@@ -125,7 +127,7 @@ void apply_tone(frame<labels>& r, const PingAt& ping_at, const side_scan_rig<Axi
     bulk_ranges(ex, static_cast<std::size_t>(r.image.height()), 16, [&](std::size_t from, std::size_t to) {
         for (std::size_t i = from; i < to; ++i) {
             const int y = static_cast<int>(i);
-            const ping at = ping_at(r.rows.first + r.rows.step * y);
+            const ping at = ping_at(number_of(y));
             const ping_frame frame(at, rig.side);
             const double altitude = at.position.z;
             const auto row = r.image.row(y);
@@ -148,7 +150,8 @@ void apply_tone(frame<labels>& r, const PingAt& ping_at, const side_scan_rig<Axi
 inline namespace INSONIFY_FLAGS {
 
 /// The level that a tone adds at a position, decibels.
-/// @throws invalid_input for a parameter out of its range, or a position that is not finite
+/// @param position  metres in the world
+/// @throws invalid_input for a parameter out of its range, or a position that is not within 10^12 metres of the origin
 inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
     detail::require_range("position.x", position.x, -1e12, 1e12, "within 10^12 metres");
     detail::require_range("position.y", position.y, -1e12, 1e12, "within 10^12 metres");
@@ -158,9 +161,9 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 /// Applies a tone to a recording: pixels with a seabed label change by the level at their position on the datum.
 /// Targets and the water column stay.
 ///
-/// @param r    a result of `render` with this rig, before noise and speckle
+/// @param r  a result of `render` with this rig, before noise and speckle
 /// @throws invalid_input for a rig or a parameter out of its range, or a recording of another width, without labels or
-///         with pings beyond 2^31
+///         with ping numbers beyond 2^31
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
@@ -183,11 +186,11 @@ template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, std::span<const ping> track, const side_scan_rig<Axis>& rig,
                         const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
-    const std::int64_t one_end = r.rows.first, other_end = one_end + std::int64_t{r.rows.step} * (r.image.height() - 1);
-    detail::require(r.image.height() == 0 || ((std::min)(one_end, other_end) >= 0 &&
-                                              (std::max)(one_end, other_end) < static_cast<std::int64_t>(track.size())),
-                    "track.size()", track.size(), "a ping for each row of the recording");
-    const auto ping_at = [&](std::int64_t number) { return track[static_cast<std::size_t>(number)]; };
+    const auto ping_at = [&](std::int64_t number) {
+        detail::require(number >= 0 && number < static_cast<std::int64_t>(track.size()), "track.size()", track.size(),
+                        "a ping for each row of the recording");
+        return track[static_cast<std::size_t>(number)];
+    };
     detail::apply_tone(r, ping_at, rig, tone, executor_ref(ex));
     return r;
 }

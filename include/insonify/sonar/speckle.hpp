@@ -22,10 +22,10 @@ inline namespace INSONIFY_FLAGS {
 /// Laws by label.
 using speckle_laws = std::array<speckle_law, seabed::label_count>;
 
-/// Marks labels that take the law of the seabed's model.
+/// `looks` of a label that takes the law that the seabed's model states.
 inline constexpr int looks_by_seabed_model = -1;
 
-/// The registry's laws; labels outside of the registry take those of the seabed's model.
+/// The registry's laws; labels outside of the registry take those that the seabed's model states.
 constexpr speckle_laws default_speckle() {
     speckle_laws laws{};
     laws.fill({looks_by_seabed_model});
@@ -137,7 +137,7 @@ inline namespace INSONIFY_FLAGS {
 /// Applies speckle to an image of mean intensities.
 ///
 /// @param mean     intensities; 0 stays 0
-/// @param types    a seabed::type for each pixel, as in labels::seabed; others are `elsewhere`
+/// @param types    the label of each pixel, as in labels::seabed; those without a law take that of `elsewhere`
 /// @param numbers  ping numbers of the rows
 /// @throws invalid_input for images of different sizes or a parameter out of its range
 template <executor_argument E = serial_executor>
@@ -146,7 +146,7 @@ image<float> with_speckle(image_view<const float> mean, image_view<const std::ui
     return detail::speckled(mean, types, s, numbers, executor_ref(ex));
 }
 
-/// Speckle with the laws of the seabed's model for labels that have none.
+/// Fills in the laws that the seabed's model states for labels that have none in `s`.
 /// @param legend  as labels::legend
 inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type_properties> legend) {
     for (const seabed::type_properties& t : legend) {
@@ -156,11 +156,16 @@ inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type
     return s;
 }
 
-/// The recording with speckle, by its own ping numbers and legend.
+/// The recording, of one side or both, with speckle by its own ping numbers and legend.
+/// @throws invalid_input for labels of another size than the image, rows that are not pings, more columns to port than
+///         there are, or a parameter out of its range
 template <executor_argument E = serial_executor>
 frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex = {}) {
-    const seabed_speckle completed = with_legend(s, r.labels.legend);
     const int port = r.rows.port_columns;
+    detail::require_range("rows.port_columns", port, 0, r.image.width(), "0 to the width of the recording");
+    detail::require_equal("labels.seabed.width()", r.labels.seabed.width(), r.image.width(), "that of the image");
+    detail::require_equal("labels.seabed.height()", r.labels.seabed.height(), r.image.height(), "that of the image");
+    const seabed_speckle completed = with_legend(s, r.labels.legend);
     if (port == 0) {
         r.image = with_speckle(r.image.view(), r.labels.seabed.view(), completed, r.rows, ex);
         return r;

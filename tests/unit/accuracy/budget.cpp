@@ -223,17 +223,6 @@ TEST_CASE("Near lights are measured against rays to the same light") {
     CHECK(error(6) < 0.5);
 }
 
-TEST_CASE("Budgets and probes out of range are refused") {
-    const in::overhead rig{.size = {32, 32}};
-    const double nan = std::nan("");
-    for (const acc::budget& b : {acc::budget{.shadow_edge = 0}, acc::budget{.silhouette = -1},
-                                 acc::budget{.height = nan}, acc::budget{.intensity = 0}})
-        CHECK_THROWS_AS(acc::settings_for(b, sb::flat{}, rig), in::invalid_input);
-    for (const acc::probe& p :
-         {acc::probe{.chips = 0}, acc::probe{.pixels = 0}, acc::probe{.finest = 0.5}, acc::probe{.usable_share = 1.5}})
-        CHECK_THROWS_AS(acc::settings_for({}, sb::flat{}, rig, p), in::invalid_input);
-}
-
 TEST_CASE("From fast to balanced to exact, errors never rise and work never falls, in twenty scenes") {
     in::thread_pool pool(2);
     for (std::uint64_t seed = 200; seed < 220; ++seed) {

@@ -40,9 +40,17 @@ TEST_CASE(
 
 TEST_CASE("A degenerate camera is refused by name") {
     CHECK_THROWS_WITH(in::camera_view({.eye = {1, 2, 3}, .target = {1, 2, 3}}),
-                      ContainsSubstring("up x line of sight"));
+                      ContainsSubstring("camera.eye to camera.target is 0"));
+    CHECK_THROWS_WITH(in::camera_view({.eye = {1e200, 0, 0}}), ContainsSubstring("camera.eye to camera.target is inf"));
+    CHECK_THROWS_WITH(in::camera_view({.up = {0, 0, 0}}), ContainsSubstring("length of camera.up is 0"));
     CHECK_THROWS_WITH(in::camera_view({.eye = {0, 0, 3}, .target = {0, 0, 0}}),
-                      ContainsSubstring("up x line of sight"));
+                      ContainsSubstring("camera.up to the line of sight is 0"));
+    // Also where rounding makes the two differ in their last bits.
+    for (const double distance : {0.1, 0.3, 0.7, 1.1})
+        for (const glm::dvec3& up : {glm::dvec3(0.3, 0.1, 0.7), glm::dvec3(-1, 0.2, 5)})
+            CHECK_THROWS_WITH(in::camera_view({.eye = distance * up, .target = {0, 0, 0}, .up = up}),
+                              ContainsSubstring("camera.up to the line of sight is"));
+    CHECK_NOTHROW(in::camera_view({.eye = {1e-6, 0, 3}, .target = {0, 0, 0}}));
     CHECK_THROWS_WITH(in::camera_view({.field_of_view = 4}), ContainsSubstring("camera.field_of_view is 4"));
     CHECK_THROWS_WITH(in::camera_view({.z_near = 0}), ContainsSubstring("camera.z_near is 0"));
     CHECK_THROWS_WITH(in::camera_view({.aspect = -1}), ContainsSubstring("camera.aspect is -1"));

@@ -322,9 +322,10 @@ TEST_CASE("Input out of range is refused before any pixel changes") {
     const in::mesh m{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {{0, 1, 3}}};
     in::image<float> depth(4, 4, 7.0f);
     REQUIRE_THROWS_WITH(in::draw(m, place_only, in::depth_target{depth}, {.load = in::depth_load::clear}),
-                        ContainsSubstring("mesh.triangles is 3"));
+                        ContainsSubstring("mesh.triangles is 3, expected an index below 3"));
     const in::mesh one_normal{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 1}}, {{0, 1, 2}}};
-    REQUIRE_THROWS_AS(in::draw(one_normal, place_only, in::depth_target{depth}), in::invalid_input);
+    REQUIRE_THROWS_WITH(in::draw(one_normal, place_only, in::depth_target{depth}),
+                        ContainsSubstring("mesh.normals.size() is 1, expected 0 or 3"));
     const in::mesh fine{};
     REQUIRE_THROWS_WITH(in::draw(fine, place_only, in::depth_target{depth}, {.tile = 48}), ContainsSubstring("tile"));
     REQUIRE_THROWS_WITH(in::draw(fine, place_only, in::depth_target{depth}, {.subpixel_bits = 3}),

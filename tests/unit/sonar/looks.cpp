@@ -10,6 +10,7 @@
 #include <insonify/sonar/speckle.hpp>
 
 #include <cmath>
+#include <limits>
 
 #include "../../catch.hpp"
 #include "../../not_finite.hpp"
@@ -326,6 +327,10 @@ TEST_CASE("A tone is refused for recordings without labels, and for pings that a
     auto far = clean;
     far.rows.first = std::int64_t{1} << 32;
     CHECK_THROWS_WITH(in::with_tone(far, rig, tone), ContainsSubstring("rows.first is 4294967296"));
+    for (const std::int64_t first : {std::int64_t{1}, std::int64_t{-1}, std::numeric_limits<std::int64_t>::max()}) {
+        far.rows.first = first;
+        CHECK_THROWS_WITH(in::with_tone(far, in::track_of(rig), rig, tone), ContainsSubstring("track.size() is 4"));
+    }
 }
 
 TEST_CASE("A tone lies abreast of each ping of a track, below the sonar's own height") {

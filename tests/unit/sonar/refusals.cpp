@@ -20,6 +20,9 @@ in::scene small_scene() {
 }
 constexpr in::overhead small_rig{.altitude = 4, .size = {8, 6}};
 const in::side_scan small_side_scan{.altitude = 4, .ping_spacing = 0.5f, .pings = 2, .range = 8, .bins = 8};
+const std::initializer_list<field<in::speckle_law>> speckle_fields{FIELD(looks, outside_whole(1, 64)),
+                                                                   FIELD(texture, {nan_value, infinity, -1, 0.001}),
+                                                                   FIELD(steady, outside(0, 1e6))};
 
 }  // namespace
 
@@ -110,12 +113,22 @@ TEST_CASE("Each field of a seabed's own properties is refused by name") {
         sampler prepare() const { return {}; }
     };
     in::scene s = small_scene();
-    check_fields<in::seabed::type_properties>("type_properties.", {in::seabed::own_type(0), "shelf"},
+    const in::seabed::type_properties good{in::seabed::own_type(0), "shelf"};
+    check_fields<in::seabed::type_properties>("type_properties.", good,
                                               [&](const in::seabed::type_properties& kind) {
                                                   s.seabed = shelf{kind};
                                                   (void)in::render(s, small_rig);
                                               },
-                                              {FIELD(reflectivity, below_0)});
+                                              {FIELD(reflectivity, below_0), FIELD(label, {0, 3})});
+    check_fields<in::speckle_law>(
+        "speckle_law.", {},
+        [&](const in::speckle_law& law) {
+            in::seabed::type_properties kind = good;
+            kind.speckle = law;
+            s.seabed = shelf{kind};
+            (void)in::with_speckle(in::render(s, small_side_scan));
+        },
+        speckle_fields);
 }
 
 TEST_CASE("record() refuses each field of a sonar equation by name") {
@@ -218,21 +231,16 @@ TEST_CASE("with_speckle() refuses each field of a speckle by name") {
     check_fields<in::seabed_speckle>("seabed_speckle.", {}, use,
                                      {FIELD(along_track, outside(0, 16)), FIELD(across_track, outside(0, 16)),
                                       FIELD(texture_length, outside(1, 1024))});
-    const std::initializer_list<field<in::speckle_law>> law{FIELD(looks, outside_whole(1, 64)),
-                                                            FIELD(texture, {nan_value, infinity, -1, 0.001}),
-                                                            FIELD(steady, outside(0, 1e6))};
     check_fields<in::speckle_law>(
-        "speckle_law.", {}, [&](const in::speckle_law& l) { use({.elsewhere = l}); }, law);
+        "speckle_law.", {}, [&](const in::speckle_law& l) { use({.elsewhere = l}); }, speckle_fields);
     check_fields<in::speckle_law>(
         "speckle_law.", {},
         [&](const in::speckle_law& l) {
             in::seabed_speckle s;
             s.bottom[0] = l;
-            if (l.looks != in::looks_by_seabed_model) return use(s);
-            s.bottom[0].looks = 0;
             use(s);
         },
-        law);
+        speckle_fields);
     const auto refused = [&](in::ping_numbers rows) {
         return refusal([&] {
             (void)in::with_speckle(heard.image.view(), heard.labels.seabed.view(), in::seabed_speckle{}, rows);
@@ -240,6 +248,17 @@ TEST_CASE("with_speckle() refuses each field of a speckle by name") {
     };
     CHECK_THAT(refused({.step = 2}), ContainsSubstring("ping_numbers.step"));
     CHECK_THAT(refused({.first = std::numeric_limits<std::int64_t>::max()}), ContainsSubstring("ping_numbers.first"));
+    const auto both = in::render_swath(small_scene(), small_side_scan);
+    for (const int columns : {-1, 17}) {
+        auto bad = both;
+        bad.rows.port_columns = columns;
+        CHECK_THAT(refusal([&] { (void)in::with_speckle(bad); }), ContainsSubstring("rows.port_columns"));
+    }
+    auto unlabelled = both;
+    unlabelled.labels.seabed = in::image<std::uint8_t>(16, 1);
+    CHECK_THAT(refusal([&] { (void)in::with_speckle(unlabelled); }), ContainsSubstring("labels.seabed.height() is 1"));
+    unlabelled.labels.seabed = {};
+    CHECK_THAT(refusal([&] { (void)in::with_speckle(unlabelled); }), ContainsSubstring("labels.seabed.width() is 0"));
 }
 
 TEST_CASE("A gap between two pictures leaves room for their columns") {

@@ -19,7 +19,7 @@ enum class isa {
     scalar,    ///< one value at a time, in builds with INSONIFY_SIMD=0; other builds use `baseline` instead
     baseline,  ///< the 128-bit vectors that every processor of the target has (SSE2, NEON)
     avx2,      ///< 256-bit integer and float vectors
-    avx512,    ///< 512-bit ones (F, BW, DQ and VL), for kernels that gain by them
+    avx512,    ///< 512-bit ones (F, BW, DQ and VL), for kernels that gain from them
 };
 
 inline namespace INSONIFY_ONCE {
@@ -55,6 +55,7 @@ INSONIFY_TARGET("avx2")
 void run_avx2(const Kernel& kernel) {
     kernel.template run<8>();
 }
+// AVX-512F includes fused multiply-add, AVX2 does not.
 template <class Kernel>
 INSONIFY_TARGET("avx512f,avx512bw,avx512dq,avx512vl")
 INSONIFY_NEVER_FUSED void run_avx512(const Kernel& kernel) {

@@ -20,7 +20,7 @@ INSONIFY_INLINE void to_double(lanes<double, N>& into, const lanes<std::uint64_t
     into = into - 0x1p52;
 }
 
-/// numeric::log for normal numbers above 0, operation by operation.
+/// Natural logarithm of normal numbers above 0, by the operations of numeric::log, to the same bits.
 template <int N>
 INSONIFY_INLINE void log_lanes(lanes<double, N>& into, const lanes<double, N>& x) {
     using doubles = lanes<double, N>;
@@ -45,8 +45,8 @@ INSONIFY_INLINE void log_lanes(lanes<double, N>& into, const lanes<double, N>& x
     into = k * ln2_high - ((half_square - (s * (half_square + 2.0 * t * tail) + k * ln2_low)) - f);
 }
 
-/// ln(2^k (1 + f)) for whole k and sqrt(1/2) - 1 <= f <= sqrt(2) - 1, relative error below 2e-7; the sum of
-/// numeric::log.
+/// ln(2^k (1 + f)) for whole k and sqrt(1/2) - 1 <= f <= sqrt(2) - 1, relative error below 2e-7; summed in
+/// the order of numeric::log.
 template <int N>
 INSONIFY_INLINE void log_lanes(lanes<float, N>& into, const lanes<float, N>& k, const lanes<float, N>& f) {
     using floats = lanes<float, N>;
@@ -132,7 +132,7 @@ INSONIFY_INLINE void cos_sin_turns(lanes<float, N>& cosine, lanes<float, N>& sin
     cosine = 1.0f - 2.0f * s * s;
 }
 
-/// Correctly rounded.
+/// Square root, correctly rounded.
 template <int N>
 INSONIFY_INLINE void square_root(lanes<double, N>& into, const lanes<double, N>& of) {
 #if INSONIFY_SIMD && defined(__SSE2__)

@@ -59,7 +59,7 @@ void require_indices(const mesh_view& m, E& ex) {
         bad[first / grain] = bad_index(m.triangles.subspan(first, last - first), m.positions.size(), best_isa());
     });
     for (const auto& index : bad)
-        if (index) refuse("mesh.triangles", *index, "an index of a position");
+        if (index) refuse_index(*index, m.positions.size());
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS

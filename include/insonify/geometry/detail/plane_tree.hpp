@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 INSONIFY_ARITHMETIC_BEGIN
 

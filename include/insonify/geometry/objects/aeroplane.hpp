@@ -1,4 +1,4 @@
-// Aeroplanes, whole, without wings or tail, or on their back.
+// Aeroplanes: whole, with wings or tail torn off, or inverted.
 #pragma once
 
 #include <insonify/geometry/creases.hpp>
@@ -88,14 +88,14 @@ class aeroplane_builder {
         const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(a_.dihedral));
         const double half = 0.5 * static_cast<double>(a_.span), inner = 0.15 * radius_;
         // Roots of both wings lie inside the fuselage, apart from each other.
-        return {{static_cast<double>(a_.wing_position) * length_, side * inner, -0.45 * radius_},
-                {0, side * cosine, sine},
-                {0, 0, 1},  // sections stay upright, so that the tips lie at the span
-                (half - inner) / cosine,
-                static_cast<double>(a_.root_chord),
-                static_cast<double>(a_.tip_chord),
-                numeric::tan(static_cast<double>(a_.sweep)) * cosine,
-                0.15};
+        return {.leading_edge = {static_cast<double>(a_.wing_position) * length_, side * inner, -0.45 * radius_},
+                .out = {0, side * cosine, sine},
+                .up = {0, 0, 1},  // sections stay upright, so that the tips lie at the span
+                .span = (half - inner) / cosine,
+                .root_chord = static_cast<double>(a_.root_chord),
+                .tip_chord = static_cast<double>(a_.tip_chord),
+                .sweep_tangent = numeric::tan(static_cast<double>(a_.sweep)) * cosine,
+                .thickness = 0.15};
     }
 
     void build_wings() {
@@ -161,21 +161,26 @@ class aeroplane_builder {
         for (const double side : {1.0, -1.0}) {
             const double inner = 0.1 * root.half_width;
             const aerofoil_surface plane{
-                {end + 0.015 * length_ + 1.05 * chord, side * inner, root.z + 0.3 * root.half_height},
-                {0, side, 0},
-                {0, 0, 1},
-                0.5 * static_cast<double>(a_.tail_span) - inner,
-                1.05 * chord,
-                0.6 * chord,
-                0.2 * chord / static_cast<double>(a_.tail_span),
-                0.1};
+                .leading_edge = {end + 0.015 * length_ + 1.05 * chord, side * inner, root.z + 0.3 * root.half_height},
+                .out = {0, side, 0},
+                .up = {0, 0, 1},
+                .span = 0.5 * static_cast<double>(a_.tail_span) - inner,
+                .root_chord = 1.05 * chord,
+                .tip_chord = 0.6 * chord,
+                .sweep_tangent = 0.2 * chord / static_cast<double>(a_.tail_span),
+                .thickness = 0.1};
             append_wing(fuselage, plane, 0, 1, a_.segments, key_, tail_);
         }
         const double fin = static_cast<double>(a_.fin_height) * (a_.is_inverted ? 0.33 : 1.0);
         const double foot = 0.5 * root.half_height;
-        const aerofoil_surface rudder{{end + 1.35 * chord, 0, root.z + foot},  {0, 0, 1},   {0, 1, 0},
-                                      fin + root.half_height - foot,           1.3 * chord, 0.75 * chord,
-                                      0.45 * chord / (fin + root.half_height), 0.1};
+        const aerofoil_surface rudder{.leading_edge = {end + 1.35 * chord, 0, root.z + foot},
+                                      .out = {0, 0, 1},
+                                      .up = {0, 1, 0},
+                                      .span = fin + root.half_height - foot,
+                                      .root_chord = 1.3 * chord,
+                                      .tip_chord = 0.75 * chord,
+                                      .sweep_tangent = 0.45 * chord / (fin + root.half_height),
+                                      .thickness = 0.1};
         append_wing(fuselage, rudder, 0, 1, a_.segments, key_, tail_);
     }
 
@@ -214,6 +219,7 @@ inline compound to_compound(const aeroplane& a) {
     return out;
 }
 
+/// The parts as one mesh.
 /// @throws invalid_input as `validate` does
 inline mesh to_mesh(const aeroplane& a) {
     return to_mesh(to_compound(a));

@@ -70,6 +70,7 @@ inline merged_compound merge(const compound& c) {
     return out;
 }
 
+/// The parts as one mesh, without their reflectivities.
 /// @throws invalid_input as `merge` does
 inline mesh to_mesh(const compound& c) {
     return merge(c).shape;

@@ -172,6 +172,7 @@ inline compound to_compound(const hull& h) {
     return out;
 }
 
+/// The parts as one mesh.
 /// @throws invalid_input as `validate` does
 inline mesh to_mesh(const hull& h) {
     return to_mesh(to_compound(h));

@@ -71,6 +71,7 @@ inline void validate(const lobster_pot& p) {
     detail::require_segments("lobster_pot.segments", p.segments, 6, 256);
 }
 
+/// The parts as one mesh.
 /// @throws invalid_input as `validate` does
 inline mesh to_mesh(const lobster_pot& p) {
     validate(p);

@@ -69,7 +69,7 @@ class screen_mesh {
             s.missed = s.triangles - (s.drawn + s.culled + s.degenerate + s.not_finite);
         });
         for (const assembled_chunk& c : chunks)
-            if (c.bad_index) detail::refuse("mesh.triangles", *c.bad_index, "an index of a position");
+            if (c.bad_index) refuse_index(*c.bad_index, m.positions.size());
 
         dynamic_array<tile_runs> runs;
         runs.reserve(chunks.size());

@@ -64,7 +64,7 @@ struct side_scan_rig {
     float ping_spacing = 0.04f;  ///< metres of track from one ping to the next, > 0
     int pings = 1024;            ///< 1 to 2^20
     float first_range = 0;       ///< start of the first bin, metres, >= 0
-    float range = 40;            ///< end of the last bin, metres
+    float range = 40;            ///< end of the last bin, metres, > first_range, at most 10^5
     int bins = 2048;             ///< 1 to 2^20
     insonify::side side = insonify::side::starboard;
 
@@ -106,6 +106,7 @@ ping ping_of(const side_scan_rig<Axis>& rig, int number) {
 }
 
 /// All pings of the rig's track, in order.
+/// @throws invalid_input for a value of the rig out of range
 template <across_track Axis>
 std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
     validate(rig);

@@ -51,7 +51,7 @@ template <class T>
 image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill = T{}) {
     detail::require_equal("right.height()", right.height(), left.height(), "the height of the left picture");
     const std::int64_t widest = (std::numeric_limits<int>::max)() - std::int64_t{left.width()} - right.width();
-    detail::require_range("gap", std::int64_t{gap}, 0, widest, "0 to 2^31 - 1, with both pictures");
+    detail::require_range("gap", std::int64_t{gap}, 0, widest, "0 or more, for a total width below 2^31");
     image<T> out(left.width() + gap + right.width(), left.height(), fill);
     for (int y = 0; y < left.height(); ++y) {
         std::copy(left.row(y).begin(), left.row(y).end(), out.row(y).begin());

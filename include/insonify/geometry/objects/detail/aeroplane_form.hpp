@@ -18,11 +18,11 @@ inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// A wing, tailplane or fin: straight edges from root to tip, the tip rounded. `out` is a unit vector along its span,
-/// `up` across its chord; the chord runs towards -x.
+/// `up` across its chord; the chord runs towards -x. Lengths are metres.
 struct aerofoil_surface {
     glm::dvec3 leading_edge;  // at the root
     glm::dvec3 out, up;
-    double span, root_chord, tip_chord, sweep_tangent, thickness;
+    double span, root_chord, tip_chord, sweep_tangent, thickness;  // the last as a share of the chord
 };
 
 /// One wing's cross section, from the upper trailing edge round the nose to the lower one.

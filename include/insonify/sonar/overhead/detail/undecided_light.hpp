@@ -20,7 +20,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Marks pixels, eight to a byte; rows start a byte.
+/// One bit for each pixel, eight to a byte; each row starts at a byte.
 class pixel_marks {
   public:
     pixel_marks() = default;
@@ -125,7 +125,7 @@ class undecided_light {
     }
 
   private:
-    /// Of the pixels of a tile.
+    /// The entries of a tile in `pixels_`: `count` of at most `room`, from index `start`.
     struct list {
         std::size_t start, count, room;
     };
