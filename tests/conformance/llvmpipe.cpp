@@ -229,11 +229,11 @@ TEST_CASE("Random triangles differ from llvmpipe's only within its snapping") {
     const int width = 1000, height = 700;
     std::vector<glm::vec3> pixels;
     for (int n = 0; n < 6000; ++n) {
-        const glm::dvec2 middle(random.uniform(0, width), random.uniform(0, height));
+        const glm::dvec2 middle{random.uniform(0, width), random.uniform(0, height)};
         const double spread = reach > 1 && n % 50 == 0 ? reach : n % 3 == 0 ? 1.0 : n % 3 == 1 ? 10.0 : 150.0;
-        const glm::dvec2 along(random.uniform(-1, 1), random.uniform(-1, 1));
+        const glm::dvec2 along{random.uniform(-1, 1), random.uniform(-1, 1)};
         for (int i = 0; i < 3; ++i) {
-            glm::dvec2 p = middle + spread * glm::dvec2(random.uniform(-1, 1), random.uniform(-1, 1));
+            glm::dvec2 p = middle + spread * glm::dvec2{random.uniform(-1, 1), random.uniform(-1, 1)};
             if (n % 7 == 0) p = middle + 200 * random.uniform(-1, 1) * along + glm::dvec2(random.uniform(-1, 1));
             pixels.emplace_back(p, random.uniform(0.01, 0.99));
         }

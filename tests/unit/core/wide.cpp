@@ -31,8 +31,7 @@ wide_float value(const double_double& v) {
 struct any_integer {
     in::random_sequence random{1};
     std::int64_t operator()() {
-        const std::uint64_t bits =
-            (static_cast<std::uint64_t>(random.below(0xFFFFFFFFu)) << 32) | random.below(0xFFFFFFFFu);
+        const std::uint64_t high = random.below(0xFFFFFFFFu), bits = high << 32 | random.below(0xFFFFFFFFu);
         const auto shifted = static_cast<std::int64_t>(bits) >> (1 + random.below(63));
         return random.below(50) == 0 ? (shifted < 0 ? -(std::int64_t{1} << 62) : std::int64_t{1} << 62) : shifted;
     }
@@ -105,7 +104,7 @@ TEST_CASE("Products of vectors and matrices equal GLM's within rounding") {
 
     // GLM's may be compiled with fused multiply-add, which skips the rounding of terms; they are below 1 here.
     in::random_sequence random(1);
-    const auto vector = [&] { return glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)); };
+    const auto vector = [&] { return glm::dvec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}; };
     const auto difference = [](const glm::dvec3& u, const glm::dvec3& v) {
         return (std::max)({std::abs(u.x - v.x), std::abs(u.y - v.y), std::abs(u.z - v.z)});
     };

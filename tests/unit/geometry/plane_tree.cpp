@@ -33,8 +33,8 @@ TEST_CASE("plane_tree visits every triangle that a plane cuts, in order, and of 
     const in::detail::plane_tree tree(sheet);
     std::size_t visited = 0, cut = 0;
     for (int trial = 0; trial < 50; ++trial) {
-        const glm::dvec3 normal(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-0.2, 0.2));
-        const double offset = -in::numeric::dot(normal, glm::dvec3(random.uniform(0, 200), random.uniform(0, 200), 0));
+        const glm::dvec3 normal{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-0.2, 0.2)};
+        const double offset = -in::numeric::dot(normal, glm::dvec3{random.uniform(0, 200), random.uniform(0, 200), 0});
         std::vector<bool> seen(sheet->triangles.size());
         std::size_t last = 0;
         tree.cut(normal, offset, [&](std::size_t first, std::size_t end) {

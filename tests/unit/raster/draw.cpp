@@ -129,9 +129,10 @@ TEST_CASE("Depth stays between the depths of the corners, on slivers too") {
     in::image<float> depth(64, 64);
     int covered = 0, outside = 0;
     for (int n = 0; n < 2000; ++n) {
-        const glm::dvec2 a(0.5 + random.below(16), 0.5 + random.below(16));
-        const glm::dvec2 b = a + 8.0 * glm::dvec2(random.below(6), 1 + random.below(5));
-        const glm::dvec2 c = 0.5 * (a + b) + glm::dvec2((random.below(2) ? 1 : -1) * (1.0 + random.below(8)) / 256, 0);
+        const glm::dvec2 a{0.5 + random.below(16), 0.5 + random.below(16)};
+        const glm::dvec2 b = a + 8.0 * glm::dvec2{random.below(6), 1 + random.below(5)};
+        const double side = random.below(2) == 0 ? -1 : 1;
+        const glm::dvec2 c = 0.5 * (a + b) + glm::dvec2(side * (1.0 + random.below(8)) / 256, 0);
         const double edge = random.uniform(), corner = random.uniform();
         const in::mesh m{{glm::vec3(a, edge), glm::vec3(b, edge), glm::vec3(c, corner)}, {}, {{0, 1, 2}, {2, 0, 1}}};
         const std::pair ends = std::minmax({static_cast<float>(edge), static_cast<float>(corner)});

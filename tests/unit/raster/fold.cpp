@@ -27,7 +27,7 @@ in::detail::clip_polygon polygon_of(const std::vector<glm::dvec2>& pixels) {
 std::vector<glm::dvec2> thin_polygon(in::random_sequence& random) {
     const int n = 4 + static_cast<int>(random.below(4));
     const auto [sine, cosine] = in::numeric::sin_cos_turns(random.uniform());
-    const glm::dvec2 middle(random.uniform(4, 20), random.uniform(4, 20)),
+    const glm::dvec2 middle{random.uniform(4, 20), random.uniform(4, 20)},
         along = random.uniform(2, 20) * glm::dvec2(cosine, sine),
         across = random.uniform(0, 0.3) * glm::dvec2(-sine, cosine);
     std::vector<glm::dvec2> points;

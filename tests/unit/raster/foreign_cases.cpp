@@ -147,7 +147,7 @@ TEST_CASE("Coverage is that of the projected corners for any w") {
         const float w[3] = {static_cast<float>(random.uniform(0.1, 4)), static_cast<float>(random.uniform(0.1, 4)),
                             static_cast<float>(random.uniform(0.1, 4))};
         const auto projected = [&](const in::vertex& v) { return pixel_space{32, 32}(v)*w[v.index]; };
-        const auto corner = [&] { return glm::dvec2(random.uniform(-8, 40), random.uniform(-8, 40)); };
+        const auto corner = [&] { return glm::dvec2{random.uniform(-8, 40), random.uniform(-8, 40)}; };
         CHECK(differences({corner(), corner(), corner()}, 8, projected, 32) == 0);
     }
 }
@@ -157,7 +157,7 @@ TEST_CASE("Culling follows the sign of the snapped area") {
     in::random_sequence random(5);
     for (int n = 0; n < 200; ++n) {
         in::mesh m{{}, {}, {{0, 1, 2}}};
-        for (int i = 0; i < 3; ++i) m.positions.emplace_back(random.uniform(2, 14), random.uniform(2, 14), 0.5);
+        for (int i = 0; i < 3; ++i) m.positions.push_back(glm::vec3{random.uniform(2, 14), random.uniform(2, 14), 0.5});
         const auto snapped = [&](std::size_t i) {
             const glm::dvec2 p(m.positions[i]);
             return glm::dvec2(std::nearbyint(p.x * 256), std::nearbyint(p.y * 256));

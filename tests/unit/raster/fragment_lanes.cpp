@@ -28,11 +28,11 @@ in::mesh rubble() {
     in::mesh m;
     in::random_sequence random(12);
     for (std::uint32_t i = 0; i < 400; ++i) {
-        const glm::dvec3 at(random.uniform(-4, 4), random.uniform(-4, 4),
-                            random.uniform(-2, 4));  // some behind the eye
+        const glm::dvec3 at{random.uniform(-4, 4), random.uniform(-4, 4),
+                            random.uniform(-2, 4)};  // some behind the eye
         for (int k = 0; k < 3; ++k)
             m.positions.emplace_back(at +
-                                     glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
+                                     glm::dvec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
         m.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
     }
     return m;
@@ -247,7 +247,7 @@ TEST_CASE("A vertex shader over lanes gets the normals of its vertices") {
     in::mesh m = rubble();
     in::random_sequence random(3);
     for (std::size_t i = 0; i < m.positions.size(); ++i)
-        m.normals.emplace_back(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+        m.normals.push_back(glm::vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
     const auto drawn = [&](const auto& place) {
         in::image<float> depth(150, 110), value(150, 110);
         const auto keep_sum = [&]<int N>(const in::fragment_lanes<N, glm::vec4>& f) {

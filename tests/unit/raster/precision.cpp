@@ -165,7 +165,7 @@ TEST_CASE("The nearer of two surfaces is visible wherever their depths differ as
         double z[2][3];
         for (int sheet = 0; sheet < 2; ++sheet)
             for (int i = 0; i < 3; ++i) {
-                const glm::dvec2 p = outline[i] + glm::dvec2(random.uniform(-5, 5), random.uniform(-5, 5));
+                const glm::dvec2 p = outline[i] + glm::dvec2{random.uniform(-5, 5), random.uniform(-5, 5)};
                 const double height = 0.4 + 1e-3 * p.x - 5e-4 * p.y + (sheet == 1 ? apart * random.uniform(-1, 1) : 0);
                 m.positions.push_back(glm::vec3(p, height));
                 const glm::vec4 clip = pixel_space{picture_side, picture_side}({m.positions.back(), {}, 0});

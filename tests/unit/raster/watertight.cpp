@@ -43,7 +43,7 @@ in::draw_options<> any_options(in::random_sequence& random) {
 /// Triangles around a point in the picture, whose outer ends lie outside of it.
 in::mesh fan(in::random_sequence& random) {
     const std::uint32_t n = 4 + random.below(20);
-    in::mesh m{{glm::vec3(random.uniform(0, screen), random.uniform(0, screen), 0.5)}, {}, {}};
+    in::mesh m{{glm::vec3{random.uniform(0, screen), random.uniform(0, screen), 0.5}}, {}, {}};
     for (std::uint32_t i = 0; i < n; ++i) {
         const double turn = (i + random.uniform(0.1, 0.4)) / n, radius = screen * random.uniform(3, 9);
         const auto [sine, cosine] = in::numeric::sin_cos_turns(turn);
@@ -82,15 +82,15 @@ in::mesh solid(in::random_sequence& random) {
     const std::uint32_t n = 3 + random.below(9);
     in::mesh m;
     const auto turn = in::numeric::sin_cos_turns(random.uniform());
-    const auto add = [&](double x, double y, double z) {
-        m.positions.emplace_back(screen / 2.0 + x, screen / 2.0 + y * turn.cosine - z * turn.sine,
-                                 0.5 + (y * turn.sine + z * turn.cosine) / 99);
+    const auto add = [&](const glm::dvec3& p) {
+        m.positions.emplace_back(screen / 2.0 + p.x, screen / 2.0 + p.y * turn.cosine - p.z * turn.sine,
+                                 0.5 + (p.y * turn.sine + p.z * turn.cosine) / 99);
     };
-    add(random.uniform(-2, 2), random.uniform(-2, 2), 12);
-    add(random.uniform(-2, 2), random.uniform(-2, 2), -12);
+    add({random.uniform(-2, 2), random.uniform(-2, 2), 12});
+    add({random.uniform(-2, 2), random.uniform(-2, 2), -12});
     for (std::uint32_t i = 0; i < n; ++i) {
         const auto [s, c] = in::numeric::sin_cos_turns((i + random.uniform(0, 0.8)) / n);
-        add(10 * c, 10 * s, random.uniform(-2, 2));
+        add({10 * c, 10 * s, random.uniform(-2, 2)});
         const std::uint32_t here = 2 + i, next = 2 + (i + 1) % n;
         m.triangles.insert(m.triangles.end(), {{0, here, next}, {1, next, here}});
     }
@@ -138,19 +138,19 @@ void check_meshes(std::uint64_t first_seed, std::uint64_t count) {
     for (std::uint64_t seed = first_seed; seed < first_seed + count; ++seed) {
         in::random_sequence random(seed);
         INFO("seed " << seed);
-        const glm::vec3 offset(random.uniform(), random.uniform(), 0);
-        const auto moved = [&](in::mesh m) {
+        const glm::vec3 offset{random.uniform(), random.uniform(), 0};
+        const auto draw = [&](in::mesh m) {
             for (glm::vec3& p : m.positions) p += offset;
-            return m;
+            hits.draw(m, pixel_space{screen, screen}, any_options(random));
         };
-        const pixel_space space{screen, screen};
-        hits.draw(moved(fan(random)), space, any_options(random));
+        draw(fan(random));
         if (hits.faults() != 0) FAIL("a fan has " << hits.faults() << " pixels that are not hit once");
-        hits.draw(moved(grid(random, 2 + random.below(9), 1)), space, any_options(random));
+        draw(grid(random, 2 + random.below(9), 1));
         if (hits.faults() != 0) FAIL("a strip has " << hits.faults() << " pixels that are not hit once");
-        hits.draw(moved(grid(random, 1 + random.below(6), 1 + random.below(6))), space, any_options(random));
+        const std::uint32_t columns = 1 + random.below(6), rows = 1 + random.below(6);
+        draw(grid(random, columns, rows));
         if (hits.faults() != 0) FAIL("a grid has " << hits.faults() << " pixels that are not hit once");
-        hits.draw(moved(solid(random)), space, any_options(random));
+        draw(solid(random));
         if (hits.front != hits.back) FAIL("a solid has a hole");
 
         const plane_view view(random);
