@@ -103,31 +103,29 @@ class tone_sampler {
     double scale_ = 0, threshold_ = 0;
 };
 
+/// @throws invalid_input for a ping that has no place on the bottom
+inline void require_abreast(const ping& p, const std::string& name) {
+    validate(p, name);
+    require_range(name + ".position.x", p.position.x, -1e12, 1e12, "within 10^12 metres");
+    require_range(name + ".position.y", p.position.y, -1e12, 1e12, "within 10^12 metres");
+}
+
 /// Multiplies a recording's echoes of the seabed by a tone.
-/// @param ping_at  ping_at(number) is the ping of that number; it throws if there is none
-template <across_track Axis, class PingAt>
-void apply_tone(frame<labels>& r, const PingAt& ping_at, const side_scan_rig<Axis>& rig, const bottom_tone& tone,
+/// @param ping_of_row  ping_of_row(y) is the ping of a row
+template <across_track Axis, class PingOfRow>
+void apply_tone(frame<labels>& r, const PingOfRow& ping_of_row, const side_scan_rig<Axis>& rig, const bottom_tone& tone,
                 executor_ref ex) {
     require_equal("rig.bins", rig.bins, r.image.width(), "the recording's width");
     const bool are_labelled =
         r.labels.seabed.width() == r.image.width() && r.labels.seabed.height() == r.image.height();
     require(are_labelled, "labels.seabed.size()", r.labels.seabed.size(), "that of the image");
-    const auto number_of = [&](int y) { return r.rows.first + std::int64_t{r.rows.step} * y; };
-    for (int y = 0; y < r.image.height(); ++y) {
-        const std::int64_t number = number_of(y);
-        const ping at = ping_at(number);
-        const std::string name = element_name("track", number);
-        validate(at, name);
-        require_range(name + ".position.x", at.position.x, -1e12, 1e12, "within 10^12 metres");
-        require_range(name + ".position.y", at.position.y, -1e12, 1e12, "within 10^12 metres");
-    }
     const tone_sampler level(tone);
     if (tone.is_none()) return;
     const double first = static_cast<double>(rig.first_range), bin = rig.bin();
     bulk_ranges(ex, static_cast<std::size_t>(r.image.height()), 16, [&](std::size_t from, std::size_t to) {
         for (std::size_t i = from; i < to; ++i) {
             const int y = static_cast<int>(i);
-            const ping at = ping_at(number_of(y));
+            const ping at = ping_of_row(y);
             const ping_frame frame(at, rig.side);
             const double altitude = at.position.z;
             const auto row = r.image.row(y);
@@ -167,31 +165,34 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
-    const auto ping_at = [&](std::int64_t number) {
+    const auto ping_of_row = [&](int y) {
+        const std::int64_t number = r.rows.first + std::int64_t{r.rows.step} * y;
         detail::require_range("rows.first", number, -(std::int64_t{1} << 31), (std::int64_t{1} << 31) - 1,
                               "rows of pings within 2^31");
         return ping_of(rig, static_cast<int>(number));
     };
-    detail::apply_tone(r, ping_at, rig, tone, executor_ref(ex));
+    for (int y = 0; y < r.image.height(); ++y) detail::require_abreast(ping_of_row(y), "ping");
+    detail::apply_tone(r, ping_of_row, rig, tone, executor_ref(ex));
     return r;
 }
 
 /// Applies a tone to a recording of a track: levels are those at the positions on the datum abreast of each ping.
 ///
 /// @param r      a result of `record` with this track and rig, before noise and speckle
-/// @param track  the pings, numbered from 0 as in `r.rows`
-/// @throws invalid_input for a rig, a ping or a parameter out of its range, a recording of another width or without
-///         labels, or one with more pings
+/// @param track  the pings of its rows, in the order in which they were recorded
+/// @throws invalid_input for a rig, a ping or a parameter out of its range, or a recording of another width, without
+///         labels or of another number of pings
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, std::span<const ping> track, const side_scan_rig<Axis>& rig,
                         const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
-    const auto ping_at = [&](std::int64_t number) {
-        detail::require(number >= 0 && number < static_cast<std::int64_t>(track.size()), "track.size()", track.size(),
-                        "a ping for each row of the recording");
-        return track[static_cast<std::size_t>(number)];
+    detail::require_equal("track.size()", track.size(), static_cast<std::size_t>(r.image.height()),
+                          "the number of the recording's rows");
+    for (std::size_t i = 0; i < track.size(); ++i) detail::require_abreast(track[i], detail::element_name("track", i));
+    const auto ping_of_row = [&](int y) {
+        return track[static_cast<std::size_t>(r.rows.step > 0 ? y : r.image.height() - 1 - y)];
     };
-    detail::apply_tone(r, ping_at, rig, tone, executor_ref(ex));
+    detail::apply_tone(r, ping_of_row, rig, tone, executor_ref(ex));
     return r;
 }
 

@@ -77,7 +77,8 @@ class scene_occlusion {
             built_.test(shadow::points{x, y, z, none, none},
                         shadow::results{std::span(all.lit).subspan(first, count), caster});
             for (std::size_t i = 0; i < count; ++i)
-                if (caster[i] != shadow::invalid_id) all.shadow[first + i] = labels::of_caster(caster[i], targets_);
+                if (caster[i] != shadow::invalid_id && all.lit[first + i] < 0.5f)
+                    all.shadow[first + i] = labels::of_caster(caster[i], targets_);
         });
         return all;
     }
@@ -91,12 +92,18 @@ class scene_occlusion {
     };
 
     static void require_box(const occlusion_bounds& within) {
+        for (const auto& [name, corner] : {std::pair{"occlusion_bounds.box.lower", within.box.lower},
+                                           std::pair{"occlusion_bounds.box.upper", within.box.upper}})
+            for (int i = 0; i < 3; ++i)
+                detail::require(corner[i] == corner[i], std::string(name) + "." + "xyz"[i], corner[i], "a number");
         const glm::dvec3 size = within.box.size();
         detail::require(!within.box.empty() && numeric::is_finite(size.x + size.y + size.z),
                         "occlusion_bounds.box.size()", size.x + size.y + size.z, "that of a box around the points");
         detail::require(within.cell >= 0 && numeric::is_finite(within.cell), "occlusion_bounds.cell", within.cell,
                         "0 metres or more");
         detail::require_not_negative("occlusion_bounds.reach", within.reach);
+        seabed::detail::require_position("occlusion_bounds.box.lower", glm::dvec2(within.box.lower));
+        seabed::detail::require_position("occlusion_bounds.box.upper", glm::dvec2(within.box.upper));
     }
     static void require_light(const shadow::any_light& light) {
         if (const auto* parallel = std::get_if<shadow::directional_light>(&light)) {
@@ -147,6 +154,9 @@ class scene_occlusion {
                                         glm::dvec2(within.box.upper) - centre + cell};
         const detail::ground_rect ground = detail::casting_ground(
             below, {within.box.lower.z, range.highest}, from_centre(light), radius, within.reach * longer_side(within));
+        const glm::dvec2 cells = (ground.upper - ground.lower) / cell;
+        detail::require(cells.x * cells.y <= 0x1p28, "vertices of the seabed", cells.x * cells.y,
+                        "at most 2^28; enlarge `occlusion_bounds.cell`, or reduce its box or its reach");
         seabed::grid grid = seabed::grid_over(ground.lower + centre, ground.upper + centre, cell);
         grid.band_limited = true;
         const seabed::heightfield field = seabed::sample(s.seabed, grid, ex);

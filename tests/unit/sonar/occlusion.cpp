@@ -143,6 +143,20 @@ TEST_CASE("Points of a level bottom are lit as its picture's pixels are, under a
     }
 }
 
+TEST_CASE("A point has a shadow's label where less than half of the light arrives, as pixels do") {
+    const auto shade = in::occlusion_of(two_cubes({0, 0, 0}), in::shadow::directional_light{0, 0.25 * in::numeric::pi},
+                                        {{{-9, -9, -1}, {9, 9, 3}}}, in::shadow::penumbra{.diameter = 0.3f});
+    std::vector<glm::dvec3> points;
+    for (int i = 0; i < 200; ++i) points.emplace_back(2.1 + 0.01 * i, 0, 0);
+    const auto found = shade.test(points);
+    int partly_lit = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        CHECK(found.shadow[i] == (found.lit[i] < 0.5f ? 2 : in::labels::is_lit));
+        partly_lit += found.lit[i] >= 0.5f && found.lit[i] < 1;
+    }
+    CHECK(partly_lit > 20);
+}
+
 TEST_CASE("Any shadow policy can test points; bounds out of range are refused") {
     const in::scene s = two_cubes({0, 0, 0});
     const in::shadow::directional_light light{0, 0.25 * in::numeric::pi};
@@ -154,7 +168,16 @@ TEST_CASE("Any shadow policy can test points; bounds out of range are refused") 
     const auto soft = in::occlusion_of(s, light, within, in::shadow::penumbra{.diameter = 0.05f}).test(points);
     CHECK((soft.lit[0] == 1 && soft.lit[1] == 0 && soft.lit[3] == 1));
     CHECK((soft.lit[4] > 0.3f && soft.lit[4] < 0.7f));
-    CHECK_THROWS_AS(in::occlusion_of(s, light, {}), in::invalid_input);
+    CHECK_THROWS_WITH(in::occlusion_of(s, light, {}), ContainsSubstring("occlusion_bounds.box.size()"));
+    const double no_number = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_WITH(in::occlusion_of(s, light, {{{-9, no_number, -1}, {9, 9, 3}}}),
+                      ContainsSubstring("occlusion_bounds.box.lower.y is nan"));
+    CHECK_THROWS_WITH(in::occlusion_of(s, light, {{{-9, -9, -1}, {1e10, 9, 3}}}),
+                      ContainsSubstring("occlusion_bounds.box.upper.x is 1e+10"));
+    in::scene on_sand = s;
+    on_sand.seabed = in::seabed::flat{};
+    CHECK_THROWS_WITH(in::occlusion_of(on_sand, light, {{{-9, -9, -1}, {9, 9, 3}}, 1e-5}),
+                      ContainsSubstring("enlarge `occlusion_bounds.cell`"));
     CHECK_THROWS_WITH(in::occlusion_of(s, in::shadow::point_light{{0, 0, 5}}, within, in::shadow::pcf{}),
                       ContainsSubstring("overhead.light_distance is 5"));
     in::scene crowded;
