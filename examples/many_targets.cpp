@@ -1,4 +1,4 @@
-// Many targets of several classes, and their labels: many_targets writes targets.csv and classes.png.
+// Many targets of several classes, and their labels: many_targets prints a table and writes classes.png.
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
 

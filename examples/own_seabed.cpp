@@ -5,7 +5,6 @@
 #include <insonify/sonar/side_scan/recording.hpp>
 #include <insonify/sonar/speckle.hpp>
 
-#include <cmath>
 #include <cstdio>
 
 namespace in = insonify;
@@ -19,7 +18,7 @@ struct sand_waves {
     void row(const in::seabed::scanline& line, std::span<float> heights) const {
         const double amplitude = 0.5 * height * static_cast<double>(in::seabed::carried(length, line.grid_spacing));
         for (std::size_t i = 0; i < heights.size(); ++i) {
-            const double turns = (line.x(i) + 0.3 * std::sin(0.4 * line.y)) / length;
+            const double turns = (line.x(i) + 0.3 * in::numeric::sin_cos(0.4 * line.y).sine) / length;
             heights[i] = static_cast<float>(amplitude * in::numeric::sin_cos_turns(turns).sine);
         }
     }

@@ -1038,16 +1038,20 @@ class image {
     INSONIFY_MEMBER T& operator()(int x, int y) { return pixels_[index(x, y)]; }
     INSONIFY_MEMBER const T& operator()(int x, int y) const { return pixels_[index(x, y)]; }
 
-    INSONIFY_MEMBER std::span<T> row(int y) { return {pixels_.data() + index(0, y), static_cast<std::size_t>(width_)}; }
-    INSONIFY_MEMBER std::span<const T> row(int y) const {
+    INSONIFY_MEMBER std::span<T> row(int y) & {
         return {pixels_.data() + index(0, y), static_cast<std::size_t>(width_)};
     }
-    INSONIFY_MEMBER std::span<T> pixels() { return {pixels_.data(), pixels_.size()}; }
-    INSONIFY_MEMBER std::span<const T> pixels() const { return {pixels_.data(), pixels_.size()}; }
-
+    INSONIFY_MEMBER std::span<const T> row(int y) const& {
+        return {pixels_.data() + index(0, y), static_cast<std::size_t>(width_)};
+    }
+    INSONIFY_MEMBER std::span<T> pixels() & { return {pixels_.data(), pixels_.size()}; }
+    INSONIFY_MEMBER std::span<const T> pixels() const& { return {pixels_.data(), pixels_.size()}; }
     INSONIFY_MEMBER image_view<T> view() & { return {pixels_.data(), width_, height_}; }
     INSONIFY_MEMBER image_view<const T> view() const& { return {pixels_.data(), width_, height_}; }
-    image_view<T> view() && = delete;  // the view would outlive its pixels
+    // Views of a temporary would outlive its pixels, as in a range-based for over its pixels().
+    std::span<T> row(int y) && = delete;
+    std::span<T> pixels() && = delete;
+    image_view<T> view() && = delete;
     INSONIFY_MEMBER operator image_view<T>() & { return view(); }
     INSONIFY_MEMBER operator image_view<const T>() const& { return view(); }
 
@@ -8363,7 +8367,9 @@ struct with_kind {
 
 /// @throws invalid_input for a range with an infinite end, as of a model that does not state its heights
 inline void require_finite(const height_range& range) {
-    require(range.empty() || numeric::is_finite(range.highest - range.lowest), "range() of the seabed", range.highest,
+    const bool is_empty = range.lowest > range.highest;  // NaN is not
+    require(is_empty || numeric::is_finite(range.highest - range.lowest), "range() of the seabed",
+            numeric::is_finite(range.highest) ? range.lowest : range.highest,
             "finite heights that it never leaves (a model without `range()` states none)");
 }
 
@@ -8464,7 +8470,7 @@ inline void extend(std::vector<type_properties>& legend, const std::vector<type_
             legend.push_back(p);
         else
             insonify::detail::require(*same == p, "type_properties.label", index_of(p.label),
-                                      "a label that no other seabed of the scene has with other properties");
+                                      "a label that is listed once, or with the same properties");
     }
 }
 
@@ -9403,8 +9409,8 @@ class round_marks {
     }
 
     /// The largest dent and the largest bump, metres.
-    double lowest() const { return 1.00001 * static_cast<double>(pock_); }
-    double highest() const { return 1.00001 * static_cast<double>(mound_); }
+    double lowest() const { return filled_ > high_ ? 1.00001 * static_cast<double>(pock_) : 0; }
+    double highest() const { return high_ > 0 ? 1.00001 * static_cast<double>(mound_) : 0; }
 
   private:
     friend relief_kernel<round_marks>;
@@ -11037,7 +11043,9 @@ INSONIFY_FUNCTION void validate(const scene& s) {
 
 INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s) {
     bottom_materials all = s.bottom;
-    for (const insonify::seabed::type_properties& t : s.seabed.legend()) {
+    std::vector<insonify::seabed::type_properties> legend;
+    insonify::seabed::extend(legend, s.seabed.legend());
+    for (const insonify::seabed::type_properties& t : legend) {
         detail::require(t.reflectivity >= 0 && numeric::is_finite(t.reflectivity), "type_properties.reflectivity",
                         t.reflectivity, "0 or more, finite");
         const std::size_t label = insonify::seabed::index_of(t.label);
@@ -18384,7 +18392,7 @@ class sampled_bottom {
 
     /// Samples a part of the ground at multiples of the spacing, counted from `position`: the position of a vertex
     /// depends neither on the extent that is sampled nor on the distance to the world's origin.
-    /// @throws invalid_input for more than 2^20 vertices along an axis
+    /// @throws invalid_input for more than 2^20 vertices along an axis, or 2^28 in all
     template <executor E>
     void sample(const seabed::any& source, const glm::dvec2& position, const ground_rect& ground, double spacing,
                 E& ex) {
@@ -18401,11 +18409,16 @@ class sampled_bottom {
         grid.width = along(0);
         grid.height = along(1);
         grid.first = first_;
+        const std::int64_t vertices = std::int64_t{grid.width} * grid.height;
+        require(
+            vertices <= std::int64_t{1} << 28, "vertices of the seabed", vertices,
+            "at most 2^28; bring `overhead.altitude` or the seabed's range() nearer to each other, reduce `reach` or "
+            "enlarge `cell`");
         field_ = seabed::sample(source, grid, ex);
         seabed::detail::tessellate_into(mesh_, field_, ex, first_);
         bool has_gaps = false;
         for (const float height : field_.heights.pixels()) {
-            if (!numeric::is_finite(height)) {
+            if (height != height) {
                 has_gaps = true;
                 continue;
             }
@@ -18759,7 +18772,8 @@ class overhead_painter {
         seabed::detail::require_position("overhead.position", rig.position);
         const int longer = (std::max)(rig.size.x, rig.size.y);
         const double spacing = options_.cell > 0 ? options_.cell : longer_side(view_) / ((longer + 1) / 2);
-        require(spacing >= min_cell(view_), "cell", spacing, "at least a 32768th of the picture");
+        require(spacing >= min_cell(view_) && spacing < 1e6, "cell", spacing,
+                "at least a 32768th of the picture, and below 10^6 metres");
 
         seabed::height_range range = merge(scene_.seabed.prepare().range(), {0, 0});
         seabed::detail::require_finite(range);
@@ -19982,6 +19996,7 @@ class obj_reader {
         const auto count = static_cast<std::int64_t>(given);
         const bool whole = status == std::errc{} && end == digits.data() + digits.size();
         if (!whole || value == 0 || value > count || value < -count) {
+            if (whole && count == 0) fail(std::string(what) + " index " + quoted(digits) + " comes before any " + what);
             fail(std::string(what) + " index " + quoted(digits) + " is none of 1 to " + to_text(count) + " or -1 to -" +
                  to_text(count) + ", the lines given so far");
         }
@@ -20084,7 +20099,8 @@ inline namespace INSONIFY_FLAGS {
 /// Reads `v` (numbers after the third, weights or colours, are ignored), `vn` and `f`; all other lines are skipped.
 /// Polygons become triangles by `triangulate`, in the order of the faces. A position is kept once for each normal it is
 /// used with, and not at all if no face uses it. Corners without a normal get `smooth_normals`. The frame is the file's
-/// own, commonly y up: turn such a model upright by `pose{.roll = 90_deg}`.
+/// own, commonly y up: turn such a model upright by `pose{.roll = 90_deg}`. Coordinates are held in float, whose steps
+/// are half a metre at 5000 km: subtract an origin from map coordinates before.
 ///
 /// @param name  what error messages call the text
 /// @throws io_error with the name and line number for: a coordinate that is missing, no number, or out of range; an
@@ -24840,9 +24856,8 @@ inline namespace INSONIFY_FLAGS {
 
 /// Records a track of any shape, with yaw, pitch, roll and heave of every ping.
 ///
-/// Pings are numbered from 0: set `rows.first` of a part of a longer track before `with_speckle` or `with_tone`. A
-/// `horizontal_beam` blurs over the given pings alone, so parts of a track need more pings at their ends, to be
-/// dropped.
+/// Pings are numbered from 0: set `rows.first` of a part of a longer track before `with_speckle`. A `horizontal_beam`
+/// blurs over the given pings alone, so parts of a track need more pings at their ends, to be dropped.
 ///
 /// @param s        the seabed and its targets
 /// @param track    pings in order; row i of the result is ping i
@@ -24939,7 +24954,7 @@ class bottom_tiles {
 
     /// Rounds a length so that its multiples are exact: a vertex has the same coordinates in every row.
     static double even(double length) {
-        require(length > 1e-9 && length < 1e9, "cell", length, "metres between 10^-9 and 10^9");
+        require(length > 1e-9 && length < 1e9, "cell", length, "above 10^-9 and below 10^9 metres");
         return numeric::rounded_to_eight_bits(length);
     }
 
@@ -27142,31 +27157,29 @@ class tone_sampler {
     double scale_ = 0, threshold_ = 0;
 };
 
+/// @throws invalid_input for a ping that has no place on the bottom
+inline void require_abreast(const ping& p, const std::string& name) {
+    validate(p, name);
+    require_range(name + ".position.x", p.position.x, -1e12, 1e12, "within 10^12 metres");
+    require_range(name + ".position.y", p.position.y, -1e12, 1e12, "within 10^12 metres");
+}
+
 /// Multiplies a recording's echoes of the seabed by a tone.
-/// @param ping_at  ping_at(number) is the ping of that number; it throws if there is none
-template <across_track Axis, class PingAt>
-void apply_tone(frame<labels>& r, const PingAt& ping_at, const side_scan_rig<Axis>& rig, const bottom_tone& tone,
+/// @param ping_of_row  ping_of_row(y) is the ping of a row
+template <across_track Axis, class PingOfRow>
+void apply_tone(frame<labels>& r, const PingOfRow& ping_of_row, const side_scan_rig<Axis>& rig, const bottom_tone& tone,
                 executor_ref ex) {
     require_equal("rig.bins", rig.bins, r.image.width(), "the recording's width");
     const bool are_labelled =
         r.labels.seabed.width() == r.image.width() && r.labels.seabed.height() == r.image.height();
     require(are_labelled, "labels.seabed.size()", r.labels.seabed.size(), "that of the image");
-    const auto number_of = [&](int y) { return r.rows.first + std::int64_t{r.rows.step} * y; };
-    for (int y = 0; y < r.image.height(); ++y) {
-        const std::int64_t number = number_of(y);
-        const ping at = ping_at(number);
-        const std::string name = element_name("track", number);
-        validate(at, name);
-        require_range(name + ".position.x", at.position.x, -1e12, 1e12, "within 10^12 metres");
-        require_range(name + ".position.y", at.position.y, -1e12, 1e12, "within 10^12 metres");
-    }
     const tone_sampler level(tone);
     if (tone.is_none()) return;
     const double first = static_cast<double>(rig.first_range), bin = rig.bin();
     bulk_ranges(ex, static_cast<std::size_t>(r.image.height()), 16, [&](std::size_t from, std::size_t to) {
         for (std::size_t i = from; i < to; ++i) {
             const int y = static_cast<int>(i);
-            const ping at = ping_at(number_of(y));
+            const ping at = ping_of_row(y);
             const ping_frame frame(at, rig.side);
             const double altitude = at.position.z;
             const auto row = r.image.row(y);
@@ -27206,31 +27219,34 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
-    const auto ping_at = [&](std::int64_t number) {
+    const auto ping_of_row = [&](int y) {
+        const std::int64_t number = r.rows.first + std::int64_t{r.rows.step} * y;
         detail::require_range("rows.first", number, -(std::int64_t{1} << 31), (std::int64_t{1} << 31) - 1,
                               "rows of pings within 2^31");
         return ping_of(rig, static_cast<int>(number));
     };
-    detail::apply_tone(r, ping_at, rig, tone, executor_ref(ex));
+    for (int y = 0; y < r.image.height(); ++y) detail::require_abreast(ping_of_row(y), "ping");
+    detail::apply_tone(r, ping_of_row, rig, tone, executor_ref(ex));
     return r;
 }
 
 /// Applies a tone to a recording of a track: levels are those at the positions on the datum abreast of each ping.
 ///
 /// @param r      a result of `record` with this track and rig, before noise and speckle
-/// @param track  the pings, numbered from 0 as in `r.rows`
-/// @throws invalid_input for a rig, a ping or a parameter out of its range, a recording of another width or without
-///         labels, or one with more pings
+/// @param track  the pings of its rows, in the order in which they were recorded
+/// @throws invalid_input for a rig, a ping or a parameter out of its range, or a recording of another width, without
+///         labels or of another number of pings
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, std::span<const ping> track, const side_scan_rig<Axis>& rig,
                         const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
-    const auto ping_at = [&](std::int64_t number) {
-        detail::require(number >= 0 && number < static_cast<std::int64_t>(track.size()), "track.size()", track.size(),
-                        "a ping for each row of the recording");
-        return track[static_cast<std::size_t>(number)];
+    detail::require_equal("track.size()", track.size(), static_cast<std::size_t>(r.image.height()),
+                          "the number of the recording's rows");
+    for (std::size_t i = 0; i < track.size(); ++i) detail::require_abreast(track[i], detail::element_name("track", i));
+    const auto ping_of_row = [&](int y) {
+        return track[static_cast<std::size_t>(r.rows.step > 0 ? y : r.image.height() - 1 - y)];
     };
-    detail::apply_tone(r, ping_at, rig, tone, executor_ref(ex));
+    detail::apply_tone(r, ping_of_row, rig, tone, executor_ref(ex));
     return r;
 }
 
@@ -27397,7 +27413,8 @@ class scene_occlusion {
             built_.test(shadow::points{x, y, z, none, none},
                         shadow::results{std::span(all.lit).subspan(first, count), caster});
             for (std::size_t i = 0; i < count; ++i)
-                if (caster[i] != shadow::invalid_id) all.shadow[first + i] = labels::of_caster(caster[i], targets_);
+                if (caster[i] != shadow::invalid_id && all.lit[first + i] < 0.5f)
+                    all.shadow[first + i] = labels::of_caster(caster[i], targets_);
         });
         return all;
     }
@@ -27411,12 +27428,18 @@ class scene_occlusion {
     };
 
     static void require_box(const occlusion_bounds& within) {
+        for (const auto& [name, corner] : {std::pair{"occlusion_bounds.box.lower", within.box.lower},
+                                           std::pair{"occlusion_bounds.box.upper", within.box.upper}})
+            for (int i = 0; i < 3; ++i)
+                detail::require(corner[i] == corner[i], std::string(name) + "." + "xyz"[i], corner[i], "a number");
         const glm::dvec3 size = within.box.size();
         detail::require(!within.box.empty() && numeric::is_finite(size.x + size.y + size.z),
                         "occlusion_bounds.box.size()", size.x + size.y + size.z, "that of a box around the points");
         detail::require(within.cell >= 0 && numeric::is_finite(within.cell), "occlusion_bounds.cell", within.cell,
                         "0 metres or more");
         detail::require_not_negative("occlusion_bounds.reach", within.reach);
+        seabed::detail::require_position("occlusion_bounds.box.lower", glm::dvec2(within.box.lower));
+        seabed::detail::require_position("occlusion_bounds.box.upper", glm::dvec2(within.box.upper));
     }
     static void require_light(const shadow::any_light& light) {
         if (const auto* parallel = std::get_if<shadow::directional_light>(&light)) {
@@ -27467,6 +27490,9 @@ class scene_occlusion {
                                         glm::dvec2(within.box.upper) - centre + cell};
         const detail::ground_rect ground = detail::casting_ground(
             below, {within.box.lower.z, range.highest}, from_centre(light), radius, within.reach * longer_side(within));
+        const glm::dvec2 cells = (ground.upper - ground.lower) / cell;
+        detail::require(cells.x * cells.y <= 0x1p28, "vertices of the seabed", cells.x * cells.y,
+                        "at most 2^28; enlarge `occlusion_bounds.cell`, or reduce its box or its reach");
         seabed::grid grid = seabed::grid_over(ground.lower + centre, ground.upper + centre, cell);
         grid.band_limited = true;
         const seabed::heightfield field = seabed::sample(s.seabed, grid, ex);

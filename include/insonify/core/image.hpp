@@ -88,16 +88,20 @@ class image {
     INSONIFY_MEMBER T& operator()(int x, int y) { return pixels_[index(x, y)]; }
     INSONIFY_MEMBER const T& operator()(int x, int y) const { return pixels_[index(x, y)]; }
 
-    INSONIFY_MEMBER std::span<T> row(int y) { return {pixels_.data() + index(0, y), static_cast<std::size_t>(width_)}; }
-    INSONIFY_MEMBER std::span<const T> row(int y) const {
+    INSONIFY_MEMBER std::span<T> row(int y) & {
         return {pixels_.data() + index(0, y), static_cast<std::size_t>(width_)};
     }
-    INSONIFY_MEMBER std::span<T> pixels() { return {pixels_.data(), pixels_.size()}; }
-    INSONIFY_MEMBER std::span<const T> pixels() const { return {pixels_.data(), pixels_.size()}; }
-
+    INSONIFY_MEMBER std::span<const T> row(int y) const& {
+        return {pixels_.data() + index(0, y), static_cast<std::size_t>(width_)};
+    }
+    INSONIFY_MEMBER std::span<T> pixels() & { return {pixels_.data(), pixels_.size()}; }
+    INSONIFY_MEMBER std::span<const T> pixels() const& { return {pixels_.data(), pixels_.size()}; }
     INSONIFY_MEMBER image_view<T> view() & { return {pixels_.data(), width_, height_}; }
     INSONIFY_MEMBER image_view<const T> view() const& { return {pixels_.data(), width_, height_}; }
-    image_view<T> view() && = delete;  // the view would outlive its pixels
+    // Views of a temporary would outlive its pixels, as in a range-based for over its pixels().
+    std::span<T> row(int y) && = delete;
+    std::span<T> pixels() && = delete;
+    image_view<T> view() && = delete;
     INSONIFY_MEMBER operator image_view<T>() & { return view(); }
     INSONIFY_MEMBER operator image_view<const T>() const& { return view(); }
 

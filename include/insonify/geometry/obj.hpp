@@ -175,6 +175,7 @@ class obj_reader {
         const auto count = static_cast<std::int64_t>(given);
         const bool whole = status == std::errc{} && end == digits.data() + digits.size();
         if (!whole || value == 0 || value > count || value < -count) {
+            if (whole && count == 0) fail(std::string(what) + " index " + quoted(digits) + " comes before any " + what);
             fail(std::string(what) + " index " + quoted(digits) + " is none of 1 to " + to_text(count) + " or -1 to -" +
                  to_text(count) + ", the lines given so far");
         }
@@ -277,7 +278,8 @@ inline namespace INSONIFY_FLAGS {
 /// Reads `v` (numbers after the third, weights or colours, are ignored), `vn` and `f`; all other lines are skipped.
 /// Polygons become triangles by `triangulate`, in the order of the faces. A position is kept once for each normal it is
 /// used with, and not at all if no face uses it. Corners without a normal get `smooth_normals`. The frame is the file's
-/// own, commonly y up: turn such a model upright by `pose{.roll = 90_deg}`.
+/// own, commonly y up: turn such a model upright by `pose{.roll = 90_deg}`. Coordinates are held in float, whose steps
+/// are half a metre at 5000 km: subtract an origin from map coordinates before.
 ///
 /// @param name  what error messages call the text
 /// @throws io_error with the name and line number for: a coordinate that is missing, no number, or out of range; an

@@ -182,7 +182,9 @@ struct with_kind {
 
 /// @throws invalid_input for a range with an infinite end, as of a model that does not state its heights
 inline void require_finite(const height_range& range) {
-    require(range.empty() || numeric::is_finite(range.highest - range.lowest), "range() of the seabed", range.highest,
+    const bool is_empty = range.lowest > range.highest;  // NaN is not
+    require(is_empty || numeric::is_finite(range.highest - range.lowest), "range() of the seabed",
+            numeric::is_finite(range.highest) ? range.lowest : range.highest,
             "finite heights that it never leaves (a model without `range()` states none)");
 }
 
@@ -283,7 +285,7 @@ inline void extend(std::vector<type_properties>& legend, const std::vector<type_
             legend.push_back(p);
         else
             insonify::detail::require(*same == p, "type_properties.label", index_of(p.label),
-                                      "a label that no other seabed of the scene has with other properties");
+                                      "a label that is listed once, or with the same properties");
     }
 }
 

@@ -89,7 +89,9 @@ INSONIFY_FUNCTION void validate(const scene& s) {
 
 INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s) {
     bottom_materials all = s.bottom;
-    for (const insonify::seabed::type_properties& t : s.seabed.legend()) {
+    std::vector<insonify::seabed::type_properties> legend;
+    insonify::seabed::extend(legend, s.seabed.legend());
+    for (const insonify::seabed::type_properties& t : legend) {
         detail::require(t.reflectivity >= 0 && numeric::is_finite(t.reflectivity), "type_properties.reflectivity",
                         t.reflectivity, "0 or more, finite");
         const std::size_t label = insonify::seabed::index_of(t.label);

@@ -67,7 +67,11 @@ TEST_CASE("render() with a context gives the same bytes, frame after frame, with
 
 TEST_CASE("A second frame reuses the first one's memory, for its image and for temporaries") {
     in::context context;
-    const float* first = picture(context).image.pixels().data();
+    const float* first = nullptr;
+    {
+        const in::frame<> frame = picture(context);
+        first = frame.image.pixels().data();
+    }
     const std::size_t kept = context.kept_bytes();
     CHECK(kept >= 2 * 256 * 256 * sizeof(float));
     const in::frame<> second = picture(context);

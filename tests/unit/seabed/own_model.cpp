@@ -212,6 +212,11 @@ TEST_CASE("A seabed without a range is drawn in range modes and refused by overh
     s.seabed = endless_slope{};
     CHECK_NOTHROW(in::render(s, in::side_scan{.pings = 4, .range = 20, .bins = 64}));
     CHECK_THROWS_WITH(in::render(s, in::overhead{.size = {8, 8}}), ContainsSubstring("range() of the seabed is inf"));
+    const double infinity = std::numeric_limits<double>::infinity(), none = std::numeric_limits<double>::quiet_NaN();
+    s.seabed = plateau{0, {-infinity, 0}};
+    CHECK_THROWS_WITH(in::render(s, in::overhead{.size = {8, 8}}), ContainsSubstring("range() of the seabed is -inf"));
+    s.seabed = plateau{0, {none, none}};
+    CHECK_THROWS_WITH(in::render(s, in::overhead{.size = {8, 8}}), ContainsSubstring("range() of the seabed is nan"));
 }
 
 TEST_CASE("A seabed that leaves the range that it states is refused") {
@@ -237,11 +242,23 @@ TEST_CASE("A seabed that leaves the range that it states is refused") {
         CHECK_THROWS_WITH(occlude(beyond), ContainsSubstring("expected heights within its range()"));
         CHECK_THROWS_WITH(record(beyond), ContainsSubstring("expected heights within its range()"));
     }
+    const float infinite = std::numeric_limits<float>::infinity();
+    CHECK_THROWS_WITH(draw({infinite, {-0.2, 0.2}}), ContainsSubstring("a height of the seabed is inf"));
+    CHECK_THROWS_WITH(record({infinite, {-0.2, 0.2}}), ContainsSubstring("a height of the seabed is inf"));
     CHECK_THROWS_WITH(draw({0.5f, {-0.2, 0.25}}),
                       "a height of the seabed is 0.5, expected heights within its range(), -0.2 to 0.25");
     CHECK_NOTHROW(draw({0.3f, {-0.3, 0.3}}));  // float holds 0.3 a little above
     CHECK_NOTHROW(occlude({0.3f, {-0.3, 0.3}}));
     CHECK_NOTHROW(record({0.3f, {-0.3, 0.3}}));
+}
+
+TEST_CASE("A picture of a bottom so far below that it has too many vertices is refused before memory is taken") {
+    in::scene s;
+    s.seabed = plateau{-1000, {-1000, -1000}};
+    CHECK_THROWS_WITH(in::render(s, in::overhead{.altitude = 4, .size = {512, 512}}),
+                      ContainsSubstring("expected at most 2^28; bring `overhead.altitude` or the seabed's range()"));
+    s.seabed = sb::flat{};
+    CHECK_THROWS_WITH(in::render(s, in::overhead{.altitude = 1e30f, .size = {8, 8}}), ContainsSubstring("cell is"));
 }
 
 TEST_CASE("An own label that a seabed writes but does not list is refused: it would be drawn as sand") {
@@ -254,6 +271,16 @@ TEST_CASE("An own label that a seabed writes but does not list is refused: it wo
     CHECK_THROWS_WITH(in::render(s, in::overhead{.size = {8, 8}}), said);
     CHECK_THROWS_WITH(in::render(s, in::side_scan{.pings = 4, .range = 20, .bins = 64}), said);
     CHECK_THROWS_WITH(sb::sample(unlisted{}, sb::grid{.spacing = 1, .width = 8, .height = 8}), said);
+    struct contradictory : stripes {
+        std::vector<sb::type_properties> legend() const {
+            auto all = stripes::legend();
+            all.push_back({sb::own_type(0), "light", 0.7f, {}});
+            return all;
+        }
+    };
+    s.seabed = contradictory{};
+    CHECK_THROWS_WITH(in::render(s, in::overhead{.size = {8, 8}}),
+                      "type_properties.label is 64, expected a label that is listed once, or with the same properties");
     s.seabed = sb::blend{.first = sb::mud{}, .second = stripes{}};
     CHECK_NOTHROW(in::render(s, in::overhead{.size = {8, 8}}));
 }

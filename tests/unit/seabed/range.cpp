@@ -39,6 +39,9 @@ TEST_CASE("Heights stay within the stated range, which is at most ten times too 
     check(sb::ripples{.wavelength = 0.3f, .sharpness = 0.9f, .surface = {.rms = 0}}, 3);
     check(sb::ripples{.second = {.wavelength = 0.3f, .steepness = 0.1f}}, 3);
     check(sb::mud{}, 10);
+    check(sb::mud{.surface = {.rms = 0.001f}, .density = 0}, 10);
+    check(sb::mud{.pock_share = 0}, 10);
+    check(sb::mud{.pock_share = 1}, 10);
     check(sb::mud{.density = 0, .trawls = {.density = 0.1f}}, 10);
     check(sb::rock{}, 10);
     check(sb::rock{.relief = 2, .fracture = 1, .surface = {.rms = 0}}, 10);

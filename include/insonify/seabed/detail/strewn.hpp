@@ -45,8 +45,8 @@ class round_marks {
     }
 
     /// The largest dent and the largest bump, metres.
-    double lowest() const { return 1.00001 * static_cast<double>(pock_); }
-    double highest() const { return 1.00001 * static_cast<double>(mound_); }
+    double lowest() const { return filled_ > high_ ? 1.00001 * static_cast<double>(pock_) : 0; }
+    double highest() const { return high_ > 0 ? 1.00001 * static_cast<double>(mound_) : 0; }
 
   private:
     friend relief_kernel<round_marks>;

@@ -119,7 +119,8 @@ class overhead_painter {
         seabed::detail::require_position("overhead.position", rig.position);
         const int longer = (std::max)(rig.size.x, rig.size.y);
         const double spacing = options_.cell > 0 ? options_.cell : longer_side(view_) / ((longer + 1) / 2);
-        require(spacing >= min_cell(view_), "cell", spacing, "at least a 32768th of the picture");
+        require(spacing >= min_cell(view_) && spacing < 1e6, "cell", spacing,
+                "at least a 32768th of the picture, and below 10^6 metres");
 
         seabed::height_range range = merge(scene_.seabed.prepare().range(), {0, 0});
         seabed::detail::require_finite(range);

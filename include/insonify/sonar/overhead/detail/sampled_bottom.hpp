@@ -45,7 +45,7 @@ class sampled_bottom {
 
     /// Samples a part of the ground at multiples of the spacing, counted from `position`: the position of a vertex
     /// depends neither on the extent that is sampled nor on the distance to the world's origin.
-    /// @throws invalid_input for more than 2^20 vertices along an axis
+    /// @throws invalid_input for more than 2^20 vertices along an axis, or 2^28 in all
     template <executor E>
     void sample(const seabed::any& source, const glm::dvec2& position, const ground_rect& ground, double spacing,
                 E& ex) {
@@ -62,11 +62,16 @@ class sampled_bottom {
         grid.width = along(0);
         grid.height = along(1);
         grid.first = first_;
+        const std::int64_t vertices = std::int64_t{grid.width} * grid.height;
+        require(
+            vertices <= std::int64_t{1} << 28, "vertices of the seabed", vertices,
+            "at most 2^28; bring `overhead.altitude` or the seabed's range() nearer to each other, reduce `reach` or "
+            "enlarge `cell`");
         field_ = seabed::sample(source, grid, ex);
         seabed::detail::tessellate_into(mesh_, field_, ex, first_);
         bool has_gaps = false;
         for (const float height : field_.heights.pixels()) {
-            if (!numeric::is_finite(height)) {
+            if (height != height) {
                 has_gaps = true;
                 continue;
             }

@@ -40,7 +40,7 @@ class bottom_tiles {
 
     /// Rounds a length so that its multiples are exact: a vertex has the same coordinates in every row.
     static double even(double length) {
-        require(length > 1e-9 && length < 1e9, "cell", length, "metres between 10^-9 and 10^9");
+        require(length > 1e-9 && length < 1e9, "cell", length, "above 10^-9 and below 10^9 metres");
         return numeric::rounded_to_eight_bits(length);
     }
 
