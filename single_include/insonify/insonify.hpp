@@ -600,8 +600,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 /// `ex.bulk(count, fn)` calls `fn(i)` once for every i in [0, count), in any order and on any thread, and returns when
-/// all calls have returned. If calls throw, it rethrows one of their exceptions after the others have ended.
-/// No result of the library depends on which executor ran it.
+/// all calls have returned. If calls throw, it rethrows one of their exceptions when no other call runs; calls that
+/// have not begun by then may be left out. No result of the library depends on which executor ran it.
 template <class E>
 concept executor = requires(E& ex, void (*fn)(std::size_t)) {
     ex.bulk(std::size_t{}, fn);
@@ -12205,7 +12205,7 @@ struct pixel_grid {
     rect pixels() const { return {0, 0, width, height}; }
     std::int64_t unit() const { return std::int64_t{1} << subpixel_bits; }
     std::int64_t half() const { return std::int64_t{1} << (subpixel_bits - 1); }
-    std::int64_t center(int pixel) const { return pixel * unit() + half(); }
+    std::int64_t centre(int pixel) const { return pixel * unit() + half(); }
     /// The first pixel of an axis whose centre is at a coordinate or beyond, clamped to [0, extent]. By the fill rule
     /// this is also the exclusive end of the pixels below an upper bound.
     int first_center(std::int64_t coordinate, int extent) const {
@@ -12248,7 +12248,7 @@ inline int128 wide_area(const screen_vertex& a, const screen_vertex& b, const sc
 }
 
 /// The pixels of an image whose centres lie in a triangle's bounding box.
-inline rect center_rect(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c,
+inline rect centre_rect(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c,
                         const pixel_grid& grid) {
     return {grid.first_center((std::min)({a.x, b.x, c.x}), grid.width),
             grid.first_center((std::min)({a.y, b.y, c.y}), grid.height),
@@ -12257,8 +12257,8 @@ inline rect center_rect(const screen_vertex& a, const screen_vertex& b, const sc
 }
 
 /// Whether the centres in a triangle's bounding box all lie beyond the same side of the image.
-inline bool is_outside(const rect& centers, const pixel_grid& grid) {
-    return centers.x0 == grid.width || centers.y0 == grid.height || centers.x1 == 0 || centers.y1 == 0;
+inline bool is_outside(const rect& centres, const pixel_grid& grid) {
+    return centres.x0 == grid.width || centres.y0 == grid.height || centres.x1 == 0 || centres.y1 == 0;
 }
 
 /// E(x, y) >= 0 at the centre of pixel (x, y) if and only if the pixel is on the inner side, fill rule included.
@@ -12270,7 +12270,7 @@ struct edge_function {
     static edge_function through(const screen_vertex& a, const screen_vertex& b, const pixel_grid& grid, int x, int y,
                                  bool compact) {
         const std::int64_t run = b.x - a.x, rise = b.y - a.y;
-        const std::int64_t right = grid.center(x) - a.x, down = grid.center(y) - a.y;
+        const std::int64_t right = grid.centre(x) - a.x, down = grid.centre(y) - a.y;
         const bool top_left = rise < 0 || (rise == 0 && run > 0);
         const std::int64_t inner = top_left ? 0 : -1;
         // A pixel is 2^s units wide, so E changes by multiples of 2^s and its sign survives the shift.
@@ -12340,7 +12340,7 @@ inline float rounded_depth(const screen_vertex& a, const screen_vertex& b, const
                            const pixel_grid& grid) {
     // Barycentric weights times twice the area, exact.
     const auto opposite = [&](const screen_vertex& from, const screen_vertex& to) {
-        return wide_side(to.x - from.x, to.y - from.y, grid.center(px) - from.x, grid.center(py) - from.y);
+        return wide_side(to.x - from.x, to.y - from.y, grid.centre(px) - from.x, grid.centre(py) - from.y);
     };
     const int128 weights[3] = {opposite(b, c), opposite(c, a), opposite(a, b)};
     const auto wide = [](const int128& v) { return double_double::from(v); };
@@ -12644,7 +12644,7 @@ class screen_polygon {
             low.x = (std::min)(low.x, at(i).x), low.y = (std::min)(low.y, at(i).y);
             high.x = (std::max)(high.x, at(i).x), high.y = (std::max)(high.y, at(i).y);
         }
-        return center_rect(low, high, high, grid);
+        return centre_rect(low, high, high, grid);
     }
 
     /// Calls `part(corners, pixels, is_span)` for disjoint parts of the polygon: triangles of three of its corners; or,
@@ -12653,7 +12653,7 @@ class screen_polygon {
     void for_each_part(const pixel_grid& grid, const Part& part) const {
         if (turns_[0] && turns_[2]) return for_each_span(grid, part);
         for (int i = 1; i + 1 < count_; ++i) {
-            const rect pixels = center_rect(at(0), at(i), at(i + 1), grid);
+            const rect pixels = centre_rect(at(0), at(i), at(i + 1), grid);
             if (!pixels.empty() && wide_area(at(0), at(i), at(i + 1)).sign() != 0)
                 part(std::array<int, 3>{0, i, i + 1}, pixels, false);
         }
@@ -12678,7 +12678,7 @@ class screen_polygon {
     /// Of the pixels [begin, end) of a row, those between its outermost crossings of the outline, two more on either
     /// side for rounding. The winding number of all others is 0.
     std::pair<int, int> crossed(int py, int begin, int end, const pixel_grid& grid) const {
-        const std::int64_t y = grid.center(py);
+        const std::int64_t y = grid.centre(py);
         double left = end, right = begin;
         for (int i = 0; i < count_; ++i) {
             const screen_vertex &from = at(i), &to = at((i + 1) % count_);
@@ -12695,7 +12695,7 @@ class screen_polygon {
     /// The winding number of the outline around a pixel's centre, clockwise. The fill rule shifts the centre to the
     /// right by an infinitesimal amount, and downwards by one of second order.
     int winding(int px, int py, const pixel_grid& grid) const {
-        const std::int64_t x = grid.center(px), y = grid.center(py);
+        const std::int64_t x = grid.centre(px), y = grid.centre(py);
         int sum = 0;
         for (int i = 0; i < count_; ++i) {
             const screen_vertex &from = at(i), &to = at((i + 1) % count_);
@@ -12812,7 +12812,7 @@ struct triangle_lanes {
     INSONIFY_INLINE void area(ints& into) const { into = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax); }
 
     /// The pixels whose centres lie in the bounding boxes, see pixel_grid::first_center.
-    INSONIFY_INLINE void centers(const drawn_area<N>& area, rect_lanes<N>& into) const {
+    INSONIFY_INLINE void centres(const drawn_area<N>& area, rect_lanes<N>& into) const {
         into.x0 = (west + area.before) >> area.bits;
         into.y0 = (north + area.before) >> area.bits;
         into.x1 = (east + area.before) >> area.bits;
@@ -12843,7 +12843,7 @@ struct small_setup {
     /// @param t  vertices in clockwise order
     INSONIFY_INLINE small_setup(const triangle_lanes<N>& t, const drawn_area<N>& area) {
         rect_lanes<N> pixels;
-        t.centers(area, pixels);
+        t.centres(area, pixels);
         pixels.intersect(area.pixels);
         store(x0, pixels.x0);
         store(y0, pixels.y0);
@@ -13375,7 +13375,7 @@ struct screen_triangle {
     glm::dvec3 weights_at(int x, int y, const pixel_grid& grid) const {
         const auto opposite = [&](const screen_vertex& from, const screen_vertex& to) {
             const std::int64_t run = to.x - from.x, rise = to.y - from.y;
-            const std::int64_t right = grid.center(x) - from.x, down = grid.center(y) - from.y;
+            const std::int64_t right = grid.centre(x) - from.x, down = grid.centre(y) - from.y;
             if (wide == nullptr) return static_cast<double>(compact_side(run, rise, right, down));
             // Pixels of a span may lie just outside of the corners, where a weight would be negative.
             const double weight = double_double::from(wide_side(run, rise, right, down)).high;
@@ -13531,7 +13531,7 @@ class screen_mesh {
             if (vertex(triangle, i).position.is_off_grid()) return assemble_wide(shader, id, tiles, out);
         const glm::uvec3& index = mesh_.triangles[triangle];
         const screen_vertex a = vertices_[index.x], b = vertices_[index.y], c = vertices_[index.z];
-        const rect pixels = center_rect(a, b, c, grid_);
+        const rect pixels = centre_rect(a, b, c, grid_);
         if (is_outside(pixels, grid_)) return outcome::missed;
         const std::int64_t area = compact_area(a, b, c);
         if (area == 0) return outcome::degenerate;
@@ -13629,7 +13629,7 @@ struct assembly_kernel {
         if (!t.are_on_grid()) return false;
         constexpr unsigned all = (1u << N) - 1;
         rect_lanes<N> pixels;
-        t.centers(picture, pixels);
+        t.centres(picture, pixels);
         ints disjoint;
         pixels.is_disjoint(picture.pixels, disjoint);
         const unsigned outside = movemask<N>(disjoint);
@@ -14349,7 +14349,7 @@ struct tile_triangles {
     }
     /// The pixels of the tile that a triangle may cover.
     rect pixels_of(const screen_triangle& t) const {
-        return intersect(pixels, t.is_span() ? t.wide->span : center_rect(t.a, t.b, t.c, grid()));
+        return intersect(pixels, t.is_span() ? t.wide->span : centre_rect(t.a, t.b, t.c, grid()));
     }
     INSONIFY_RARE float rounded_depth(std::uint32_t id, int x, int y) const {
         const screen_triangle t = screen[id];
@@ -14417,7 +14417,7 @@ struct row_centers {
     INSONIFY_INLINE row_centers(const pixel_grid& grid, int row) : y(row), subpixel_bits(grid.subpixel_bits) {
         iota<std::uint32_t, N>(first);
         first = (first << subpixel_bits) + static_cast<std::uint32_t>(grid.half());
-        down = positions{} + static_cast<std::uint32_t>(grid.center(row));
+        down = positions{} + static_cast<std::uint32_t>(grid.centre(row));
     }
 };
 
@@ -20886,11 +20886,10 @@ inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a value outside its range
 inline void validate(const boulder& b) {
+    for (int i = 0; i < 3; ++i) detail::require_size("boulder.size", b.size[i]);
     const float largest = (std::max)((std::max)(b.size.x, b.size.y), b.size.z);
-    for (int i = 0; i < 3; ++i) {
-        detail::require_size("boulder.size", b.size[i]);
+    for (int i = 0; i < 3; ++i)
         detail::require(100 * b.size[i] >= largest, "boulder.size", b.size[i], "at least 1/100 of the largest");
-    }
     detail::require_fraction("boulder.angularity", b.angularity);
     detail::require_fraction("boulder.roughness", b.roughness);
     detail::require_segments("boulder.segments", b.segments, 2, 256);

@@ -79,11 +79,10 @@ inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a value outside its range
 inline void validate(const boulder& b) {
+    for (int i = 0; i < 3; ++i) detail::require_size("boulder.size", b.size[i]);
     const float largest = (std::max)((std::max)(b.size.x, b.size.y), b.size.z);
-    for (int i = 0; i < 3; ++i) {
-        detail::require_size("boulder.size", b.size[i]);
+    for (int i = 0; i < 3; ++i)
         detail::require(100 * b.size[i] >= largest, "boulder.size", b.size[i], "at least 1/100 of the largest");
-    }
     detail::require_fraction("boulder.angularity", b.angularity);
     detail::require_fraction("boulder.roughness", b.roughness);
     detail::require_segments("boulder.segments", b.segments, 2, 256);

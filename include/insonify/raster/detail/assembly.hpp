@@ -143,7 +143,7 @@ class screen_mesh {
             if (vertex(triangle, i).position.is_off_grid()) return assemble_wide(shader, id, tiles, out);
         const glm::uvec3& index = mesh_.triangles[triangle];
         const screen_vertex a = vertices_[index.x], b = vertices_[index.y], c = vertices_[index.z];
-        const rect pixels = center_rect(a, b, c, grid_);
+        const rect pixels = centre_rect(a, b, c, grid_);
         if (is_outside(pixels, grid_)) return outcome::missed;
         const std::int64_t area = compact_area(a, b, c);
         if (area == 0) return outcome::degenerate;
@@ -241,7 +241,7 @@ struct assembly_kernel {
         if (!t.are_on_grid()) return false;
         constexpr unsigned all = (1u << N) - 1;
         rect_lanes<N> pixels;
-        t.centers(picture, pixels);
+        t.centres(picture, pixels);
         ints disjoint;
         pixels.is_disjoint(picture.pixels, disjoint);
         const unsigned outside = movemask<N>(disjoint);

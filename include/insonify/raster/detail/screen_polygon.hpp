@@ -55,7 +55,7 @@ class screen_polygon {
             low.x = (std::min)(low.x, at(i).x), low.y = (std::min)(low.y, at(i).y);
             high.x = (std::max)(high.x, at(i).x), high.y = (std::max)(high.y, at(i).y);
         }
-        return center_rect(low, high, high, grid);
+        return centre_rect(low, high, high, grid);
     }
 
     /// Calls `part(corners, pixels, is_span)` for disjoint parts of the polygon: triangles of three of its corners; or,
@@ -64,7 +64,7 @@ class screen_polygon {
     void for_each_part(const pixel_grid& grid, const Part& part) const {
         if (turns_[0] && turns_[2]) return for_each_span(grid, part);
         for (int i = 1; i + 1 < count_; ++i) {
-            const rect pixels = center_rect(at(0), at(i), at(i + 1), grid);
+            const rect pixels = centre_rect(at(0), at(i), at(i + 1), grid);
             if (!pixels.empty() && wide_area(at(0), at(i), at(i + 1)).sign() != 0)
                 part(std::array<int, 3>{0, i, i + 1}, pixels, false);
         }
@@ -89,7 +89,7 @@ class screen_polygon {
     /// Of the pixels [begin, end) of a row, those between its outermost crossings of the outline, two more on either
     /// side for rounding. The winding number of all others is 0.
     std::pair<int, int> crossed(int py, int begin, int end, const pixel_grid& grid) const {
-        const std::int64_t y = grid.center(py);
+        const std::int64_t y = grid.centre(py);
         double left = end, right = begin;
         for (int i = 0; i < count_; ++i) {
             const screen_vertex &from = at(i), &to = at((i + 1) % count_);
@@ -106,7 +106,7 @@ class screen_polygon {
     /// The winding number of the outline around a pixel's centre, clockwise. The fill rule shifts the centre to the
     /// right by an infinitesimal amount, and downwards by one of second order.
     int winding(int px, int py, const pixel_grid& grid) const {
-        const std::int64_t x = grid.center(px), y = grid.center(py);
+        const std::int64_t x = grid.centre(px), y = grid.centre(py);
         int sum = 0;
         for (int i = 0; i < count_; ++i) {
             const screen_vertex &from = at(i), &to = at((i + 1) % count_);

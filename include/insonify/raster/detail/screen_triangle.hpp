@@ -35,7 +35,7 @@ struct screen_triangle {
     glm::dvec3 weights_at(int x, int y, const pixel_grid& grid) const {
         const auto opposite = [&](const screen_vertex& from, const screen_vertex& to) {
             const std::int64_t run = to.x - from.x, rise = to.y - from.y;
-            const std::int64_t right = grid.center(x) - from.x, down = grid.center(y) - from.y;
+            const std::int64_t right = grid.centre(x) - from.x, down = grid.centre(y) - from.y;
             if (wide == nullptr) return static_cast<double>(compact_side(run, rise, right, down));
             // Pixels of a span may lie just outside of the corners, where a weight would be negative.
             const double weight = double_double::from(wide_side(run, rise, right, down)).high;

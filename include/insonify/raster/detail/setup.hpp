@@ -61,7 +61,7 @@ struct pixel_grid {
     rect pixels() const { return {0, 0, width, height}; }
     std::int64_t unit() const { return std::int64_t{1} << subpixel_bits; }
     std::int64_t half() const { return std::int64_t{1} << (subpixel_bits - 1); }
-    std::int64_t center(int pixel) const { return pixel * unit() + half(); }
+    std::int64_t centre(int pixel) const { return pixel * unit() + half(); }
     /// The first pixel of an axis whose centre is at a coordinate or beyond, clamped to [0, extent]. By the fill rule
     /// this is also the exclusive end of the pixels below an upper bound.
     int first_center(std::int64_t coordinate, int extent) const {
@@ -104,7 +104,7 @@ inline int128 wide_area(const screen_vertex& a, const screen_vertex& b, const sc
 }
 
 /// The pixels of an image whose centres lie in a triangle's bounding box.
-inline rect center_rect(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c,
+inline rect centre_rect(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c,
                         const pixel_grid& grid) {
     return {grid.first_center((std::min)({a.x, b.x, c.x}), grid.width),
             grid.first_center((std::min)({a.y, b.y, c.y}), grid.height),
@@ -113,8 +113,8 @@ inline rect center_rect(const screen_vertex& a, const screen_vertex& b, const sc
 }
 
 /// Whether the centres in a triangle's bounding box all lie beyond the same side of the image.
-inline bool is_outside(const rect& centers, const pixel_grid& grid) {
-    return centers.x0 == grid.width || centers.y0 == grid.height || centers.x1 == 0 || centers.y1 == 0;
+inline bool is_outside(const rect& centres, const pixel_grid& grid) {
+    return centres.x0 == grid.width || centres.y0 == grid.height || centres.x1 == 0 || centres.y1 == 0;
 }
 
 /// E(x, y) >= 0 at the centre of pixel (x, y) if and only if the pixel is on the inner side, fill rule included.
@@ -126,7 +126,7 @@ struct edge_function {
     static edge_function through(const screen_vertex& a, const screen_vertex& b, const pixel_grid& grid, int x, int y,
                                  bool compact) {
         const std::int64_t run = b.x - a.x, rise = b.y - a.y;
-        const std::int64_t right = grid.center(x) - a.x, down = grid.center(y) - a.y;
+        const std::int64_t right = grid.centre(x) - a.x, down = grid.centre(y) - a.y;
         const bool top_left = rise < 0 || (rise == 0 && run > 0);
         const std::int64_t inner = top_left ? 0 : -1;
         // A pixel is 2^s units wide, so E changes by multiples of 2^s and its sign survives the shift.
@@ -196,7 +196,7 @@ inline float rounded_depth(const screen_vertex& a, const screen_vertex& b, const
                            const pixel_grid& grid) {
     // Barycentric weights times twice the area, exact.
     const auto opposite = [&](const screen_vertex& from, const screen_vertex& to) {
-        return wide_side(to.x - from.x, to.y - from.y, grid.center(px) - from.x, grid.center(py) - from.y);
+        return wide_side(to.x - from.x, to.y - from.y, grid.centre(px) - from.x, grid.centre(py) - from.y);
     };
     const int128 weights[3] = {opposite(b, c), opposite(c, a), opposite(a, b)};
     const auto wide = [](const int128& v) { return double_double::from(v); };

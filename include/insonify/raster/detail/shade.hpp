@@ -44,7 +44,7 @@ struct tile_triangles {
     }
     /// The pixels of the tile that a triangle may cover.
     rect pixels_of(const screen_triangle& t) const {
-        return intersect(pixels, t.is_span() ? t.wide->span : center_rect(t.a, t.b, t.c, grid()));
+        return intersect(pixels, t.is_span() ? t.wide->span : centre_rect(t.a, t.b, t.c, grid()));
     }
     INSONIFY_RARE float rounded_depth(std::uint32_t id, int x, int y) const {
         const screen_triangle t = screen[id];
@@ -112,7 +112,7 @@ struct row_centers {
     INSONIFY_INLINE row_centers(const pixel_grid& grid, int row) : y(row), subpixel_bits(grid.subpixel_bits) {
         iota<std::uint32_t, N>(first);
         first = (first << subpixel_bits) + static_cast<std::uint32_t>(grid.half());
-        down = positions{} + static_cast<std::uint32_t>(grid.center(row));
+        down = positions{} + static_cast<std::uint32_t>(grid.centre(row));
     }
 };
 

@@ -91,7 +91,7 @@ struct triangle_lanes {
     INSONIFY_INLINE void area(ints& into) const { into = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax); }
 
     /// The pixels whose centres lie in the bounding boxes, see pixel_grid::first_center.
-    INSONIFY_INLINE void centers(const drawn_area<N>& area, rect_lanes<N>& into) const {
+    INSONIFY_INLINE void centres(const drawn_area<N>& area, rect_lanes<N>& into) const {
         into.x0 = (west + area.before) >> area.bits;
         into.y0 = (north + area.before) >> area.bits;
         into.x1 = (east + area.before) >> area.bits;
@@ -122,7 +122,7 @@ struct small_setup {
     /// @param t  vertices in clockwise order
     INSONIFY_INLINE small_setup(const triangle_lanes<N>& t, const drawn_area<N>& area) {
         rect_lanes<N> pixels;
-        t.centers(area, pixels);
+        t.centres(area, pixels);
         pixels.intersect(area.pixels);
         store(x0, pixels.x0);
         store(y0, pixels.y0);
