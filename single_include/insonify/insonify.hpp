@@ -9408,7 +9408,7 @@ class round_marks {
         if (filled_ > 0) add_relief(*this, part, values, level);
     }
 
-    /// The largest dent and the largest bump, metres.
+    /// The largest dent and the largest bump, metres; 0 where there are none.
     double lowest() const { return filled_ > high_ ? 1.00001 * static_cast<double>(pock_) : 0; }
     double highest() const { return high_ > 0 ? 1.00001 * static_cast<double>(mound_) : 0; }
 
@@ -11044,7 +11044,7 @@ INSONIFY_FUNCTION void validate(const scene& s) {
 INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s) {
     bottom_materials all = s.bottom;
     std::vector<insonify::seabed::type_properties> legend;
-    insonify::seabed::extend(legend, s.seabed.legend());
+    insonify::seabed::extend(legend, s.seabed.legend());  // refuses a label that is listed with two sets of properties
     for (const insonify::seabed::type_properties& t : legend) {
         detail::require(t.reflectivity >= 0 && numeric::is_finite(t.reflectivity), "type_properties.reflectivity",
                         t.reflectivity, "0 or more, finite");
@@ -18054,6 +18054,16 @@ struct grid {
     glm::ivec2 first{0, 0};
 };
 
+namespace detail::inline INSONIFY_FLAGS {
+
+/// @param advice  how users of the caller get fewer
+/// @throws invalid_input for more vertices than a scene may sample: with their mesh, so many take 14 GB
+inline void require_vertices(double count, std::string_view advice) {
+    if (!(count <= 0x1p28)) refuse("vertices of the seabed", count, "at most 2^28; " + std::string(advice));
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
 inline namespace INSONIFY_FLAGS {
 
 /// The grid whose vertices are multiples of the spacing and which covers [low, high]. Grids of one spacing share their
@@ -18409,10 +18419,9 @@ class sampled_bottom {
         grid.width = along(0);
         grid.height = along(1);
         grid.first = first_;
-        const std::int64_t vertices = std::int64_t{grid.width} * grid.height;
-        require(
-            vertices <= std::int64_t{1} << 28, "vertices of the seabed", vertices,
-            "at most 2^28; bring `overhead.altitude` or the seabed's range() nearer to each other, reduce `reach` or "
+        seabed::detail::require_vertices(
+            static_cast<double>(grid.width) * grid.height,
+            "bring `overhead.altitude` and the seabed's range() nearer to each other, reduce `reach` or "
             "enlarge `cell`");
         field_ = seabed::sample(source, grid, ex);
         seabed::detail::tessellate_into(mesh_, field_, ex, first_);
@@ -27490,8 +27499,8 @@ class scene_occlusion {
         const detail::ground_rect ground = detail::casting_ground(
             below, {within.box.lower.z, range.highest}, from_centre(light), radius, within.reach * longer_side(within));
         const glm::dvec2 cells = (ground.upper - ground.lower) / cell;
-        detail::require(cells.x * cells.y <= 0x1p28, "vertices of the seabed", cells.x * cells.y,
-                        "at most 2^28; enlarge `occlusion_bounds.cell`, or reduce its box or its reach");
+        seabed::detail::require_vertices(cells.x * cells.y,
+                                         "enlarge `occlusion_bounds.cell`, or reduce its box or its reach");
         seabed::grid grid = seabed::grid_over(ground.lower + centre, ground.upper + centre, cell);
         grid.band_limited = true;
         const seabed::heightfield field = seabed::sample(s.seabed, grid, ex);

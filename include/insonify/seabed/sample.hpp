@@ -20,6 +20,16 @@ struct grid {
     glm::ivec2 first{0, 0};
 };
 
+namespace detail::inline INSONIFY_FLAGS {
+
+/// @param advice  how users of the caller get fewer
+/// @throws invalid_input for more vertices than a scene may sample: with their mesh, so many take 14 GB
+inline void require_vertices(double count, std::string_view advice) {
+    if (!(count <= 0x1p28)) refuse("vertices of the seabed", count, "at most 2^28; " + std::string(advice));
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
 inline namespace INSONIFY_FLAGS {
 
 /// The grid whose vertices are multiples of the spacing and which covers [low, high]. Grids of one spacing share their

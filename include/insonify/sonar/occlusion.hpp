@@ -155,8 +155,8 @@ class scene_occlusion {
         const detail::ground_rect ground = detail::casting_ground(
             below, {within.box.lower.z, range.highest}, from_centre(light), radius, within.reach * longer_side(within));
         const glm::dvec2 cells = (ground.upper - ground.lower) / cell;
-        detail::require(cells.x * cells.y <= 0x1p28, "vertices of the seabed", cells.x * cells.y,
-                        "at most 2^28; enlarge `occlusion_bounds.cell`, or reduce its box or its reach");
+        seabed::detail::require_vertices(cells.x * cells.y,
+                                         "enlarge `occlusion_bounds.cell`, or reduce its box or its reach");
         seabed::grid grid = seabed::grid_over(ground.lower + centre, ground.upper + centre, cell);
         grid.band_limited = true;
         const seabed::heightfield field = seabed::sample(s.seabed, grid, ex);

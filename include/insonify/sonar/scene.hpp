@@ -90,7 +90,7 @@ INSONIFY_FUNCTION void validate(const scene& s) {
 INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s) {
     bottom_materials all = s.bottom;
     std::vector<insonify::seabed::type_properties> legend;
-    insonify::seabed::extend(legend, s.seabed.legend());
+    insonify::seabed::extend(legend, s.seabed.legend());  // refuses a label that is listed with two sets of properties
     for (const insonify::seabed::type_properties& t : legend) {
         detail::require(t.reflectivity >= 0 && numeric::is_finite(t.reflectivity), "type_properties.reflectivity",
                         t.reflectivity, "0 or more, finite");

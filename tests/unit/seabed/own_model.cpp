@@ -256,7 +256,7 @@ TEST_CASE("A picture of a bottom so far below that it has too many vertices is r
     in::scene s;
     s.seabed = plateau{-1000, {-1000, -1000}};
     CHECK_THROWS_WITH(in::render(s, in::overhead{.altitude = 4, .size = {512, 512}}),
-                      ContainsSubstring("expected at most 2^28; bring `overhead.altitude` or the seabed's range()"));
+                      ContainsSubstring("expected at most 2^28; bring `overhead.altitude` and the seabed's range()"));
     s.seabed = sb::flat{};
     CHECK_THROWS_WITH(in::render(s, in::overhead{.altitude = 1e30f, .size = {8, 8}}), ContainsSubstring("cell is"));
 }

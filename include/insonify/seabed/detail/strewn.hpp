@@ -44,7 +44,7 @@ class round_marks {
         if (filled_ > 0) add_relief(*this, part, values, level);
     }
 
-    /// The largest dent and the largest bump, metres.
+    /// The largest dent and the largest bump, metres; 0 where there are none.
     double lowest() const { return filled_ > high_ ? 1.00001 * static_cast<double>(pock_) : 0; }
     double highest() const { return high_ > 0 ? 1.00001 * static_cast<double>(mound_) : 0; }
 

@@ -62,10 +62,9 @@ class sampled_bottom {
         grid.width = along(0);
         grid.height = along(1);
         grid.first = first_;
-        const std::int64_t vertices = std::int64_t{grid.width} * grid.height;
-        require(
-            vertices <= std::int64_t{1} << 28, "vertices of the seabed", vertices,
-            "at most 2^28; bring `overhead.altitude` or the seabed's range() nearer to each other, reduce `reach` or "
+        seabed::detail::require_vertices(
+            static_cast<double>(grid.width) * grid.height,
+            "bring `overhead.altitude` and the seabed's range() nearer to each other, reduce `reach` or "
             "enlarge `cell`");
         field_ = seabed::sample(source, grid, ex);
         seabed::detail::tessellate_into(mesh_, field_, ex, first_);
