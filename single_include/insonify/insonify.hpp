@@ -19868,7 +19868,10 @@ namespace detail::inline INSONIFY_FLAGS {
 /// Parses the text in one pass. Blanks separate words; a backslash at the end of a line continues it.
 class obj_reader {
   public:
-    obj_reader(std::string_view text, std::string_view name) : text_(text), name_(name) {}
+    obj_reader(std::string_view text, std::string_view name, const glm::dvec3& origin)
+        : text_(text), name_(name), origin_(origin) {
+        for (int i = 0; i < 3; ++i) require_range("origin", origin[i], -1e9, 1e9, "within 1e9 metres");
+    }
 
     mesh read() {
         parse();
@@ -19894,9 +19897,9 @@ class obj_reader {
         while (at_ < text_.size()) {
             const std::string_view keyword = word();
             if (keyword == "v")
-                positions_.push_back(vector());
+                positions_.push_back(vector(origin_));
             else if (keyword == "vn")
-                normals_.push_back(vector());
+                normals_.push_back(vector(glm::dvec3(0)));
             else if (keyword == "vt" && reads_texture_)
                 texture_.push_back(texture_coordinate());
             else if (keyword == "f")
@@ -19973,23 +19976,25 @@ class obj_reader {
 
     // Elements.
 
-    float number(const char* if_missing = "a vertex or normal has fewer than 3 numbers") {
+    float number(const char* if_missing, double origin = 0) {
         const std::string_view digits = word();
         if (digits.empty()) fail(if_missing);
-        return parsed(digits);
+        return parsed(digits, origin);
     }
-    float parsed(std::string_view digits) const {
+    /// The number less an origin, rounded once.
+    float parsed(std::string_view digits, double origin = 0) const {
         double value = 0;
         const number_text found = parse_number(digits, value);
         if (found == number_text::malformed) fail(quoted(digits) + " is not a number");
         constexpr auto limit = static_cast<double>((std::numeric_limits<float>::max)());
         if (found != number_text::fine || !(value >= -limit && value <= limit))
             fail(quoted(digits) + " is not a finite number that a float can hold");
-        return static_cast<float>(value);
+        return static_cast<float>(value - origin);
     }
-    glm::vec3 vector() {
-        const float x = number(), y = number();
-        return {x, y, number()};
+    glm::vec3 vector(const glm::dvec3& origin) {
+        glm::vec3 out;
+        for (int i = 0; i < 3; ++i) out[i] = number("a vertex or normal has fewer than 3 numbers", origin[i]);
+        return out;
     }
     /// One or two numbers; a third, of solid textures, is ignored.
     glm::vec2 texture_coordinate() {
@@ -20088,6 +20093,7 @@ class obj_reader {
 
     std::string_view text_;
     std::string_view name_;
+    glm::dvec3 origin_;
     bool reads_texture_ = false;
     std::size_t at_ = 0;
     std::size_t line_ = 1;
@@ -20108,34 +20114,40 @@ inline namespace INSONIFY_FLAGS {
 /// Reads `v` (numbers after the third, weights or colours, are ignored), `vn` and `f`; all other lines are skipped.
 /// Polygons become triangles by `triangulate`, in the order of the faces. A position is kept once for each normal it is
 /// used with, and not at all if no face uses it. Corners without a normal get `smooth_normals`. The frame is the file's
-/// own, commonly y up: turn such a model upright by `pose{.roll = 90_deg}`. Coordinates are held in float, whose steps
-/// are half a metre at 5000 km: subtract an origin from map coordinates before.
+/// own, commonly y up: turn such a model upright by `pose{.roll = 90_deg}`.
 ///
-/// @param name  what error messages call the text
+/// @param name    what error messages call the text
+/// @param origin  metres, within 1e9 each: subtracted from every position before it is rounded to float, whose steps
+/// are
+///                half a metre at 5000 km; for meshes in map coordinates
+/// @throws invalid_input if `origin` is out of range
 /// @throws io_error with the name and line number for: a coordinate that is missing, no number, or out of range; an
 ///         index that is 0, no integer, or refers to a line not yet given; a face with fewer than 3 corners; a text
 ///         without a face, such as the path of a file, which `load_obj` takes; more than 2 GiB of text
-inline mesh read_obj(std::string_view text, std::string_view name = "OBJ text") {
-    return detail::obj_reader(text, name).read();
+inline mesh read_obj(std::string_view text, std::string_view name = "OBJ text",
+                     const glm::dvec3& origin = glm::dvec3(0)) {
+    return detail::obj_reader(text, name, origin).read();
 }
 
 /// `read_obj` with texture coordinates (`vt`). A position is kept once for each pair of a normal and a texture
 /// coordinate that it is used with, so that it has more vertices along the seams of the texture. Corners without a
 /// texture coordinate get (0, 0).
-/// @throws io_error as `read_obj` does, and for the same faults of texture coordinates and their indices
-inline textured_mesh read_textured_obj(std::string_view text, std::string_view name = "OBJ text") {
-    return detail::obj_reader(text, name).read_textured();
+/// @throws invalid_input or io_error as `read_obj` does, and for the same faults of texture coordinates and their
+///         indices
+inline textured_mesh read_textured_obj(std::string_view text, std::string_view name = "OBJ text",
+                                       const glm::dvec3& origin = glm::dvec3(0)) {
+    return detail::obj_reader(text, name, origin).read_textured();
 }
 
 /// `read_obj` of a file.
 /// @throws io_error if the file can't be read, with the system's reason, and as `read_obj` does
-inline mesh load_obj(const std::string& path) {
-    return read_obj(detail::file_bytes(path), path);
+inline mesh load_obj(const std::string& path, const glm::dvec3& origin = glm::dvec3(0)) {
+    return read_obj(detail::file_bytes(path), path, origin);
 }
 /// `read_textured_obj` of a file.
 /// @throws io_error if the file can't be read, with the system's reason, and as `read_textured_obj` does
-inline textured_mesh load_textured_obj(const std::string& path) {
-    return read_textured_obj(detail::file_bytes(path), path);
+inline textured_mesh load_textured_obj(const std::string& path, const glm::dvec3& origin = glm::dvec3(0)) {
+    return read_textured_obj(detail::file_bytes(path), path, origin);
 }
 
 }  // namespace INSONIFY_FLAGS

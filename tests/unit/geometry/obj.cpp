@@ -212,6 +212,32 @@ TEST_CASE("Coordinates must be finite numbers that a float can hold") {
     CHECK_THROWS_AS(in::read_obj("vn " + number + " 0 0\n"), in::io_error);
 }
 
+TEST_CASE("An origin is subtracted from positions before they are rounded to float") {
+    const glm::dvec3 origin{449000.25, 5411000.125, -31.5};
+    // Steps of 1 cm, which a float at 5411 km can't hold.
+    const std::string text =
+        "v 449000.25 5411000.125 -31.5\nv 449000.26 5411000.125 -31.5\nv 449000.26 5411000.135 -31.49\n"
+        "vt 0.25 0.75\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1";
+    const in::textured_mesh textured = in::read_textured_obj(text, "map.obj", origin);
+    for (const in::mesh& m : {in::read_obj(text, "map.obj", origin), textured.shape}) {
+        CHECK(m.positions[0] == glm::vec3(0));
+        CHECK(glm::distance(m.positions[2], glm::vec3(0.01f, 0.01f, 0.01f)) < 1e-9f);
+        CHECK(m.normals[1] == glm::vec3(0, 0, 1));
+    }
+    CHECK(textured.texture[0] == glm::vec2(0.25f, 0.75f));
+    CHECK(in::read_obj(text).positions[1].y == in::read_obj(text).positions[2].y);
+}
+
+TEST_CASE("An origin must be finite and within 1e9 metres") {
+    const double bad =
+        GENERATE(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 2e9, -2e9);
+    for (int i = 0; i < 3; ++i) {
+        glm::dvec3 origin(0);
+        origin[i] = bad;
+        CHECK_THROWS_WITH(in::read_obj(square + "f 1 2 3", "a.obj", origin), ContainsSubstring("origin"));
+    }
+}
+
 TEST_CASE("Line numbers count continued lines and every line ending") {
     CHECK(refusal("# \\\nv 0 \\\n0 0\r\n\r\nv x").rfind("a.obj:5:", 0) == 0);
     CHECK(refusal("\r\r\nv x").rfind("a.obj:3:", 0) == 0);
@@ -339,6 +365,8 @@ TEST_CASE("A file is read like its text, and a file that cannot be read is refus
     std::fwrite(text.data(), 1, text.size(), file);
     std::fclose(file);
     CHECK_THROWS_WITH(in::load_obj(path), ContainsSubstring(path + ":7: "));
+    CHECK_THROWS_WITH(in::load_obj(path, glm::dvec3(2e9)), ContainsSubstring("origin"));
+    CHECK_THROWS_WITH(in::load_textured_obj(path, glm::dvec3(2e9)), ContainsSubstring("origin"));
     std::remove(path.c_str());
     CHECK_THROWS_WITH(in::load_obj(path), ContainsSubstring(path) && ContainsSubstring("No such file"));
     CHECK_THROWS_AS(in::load_obj("."), in::io_error);
