@@ -11,7 +11,9 @@ namespace seabed {
 
 /// Furrows of trawl doors, 0.05 to 0.3 m deep and 0.2 to 2 m wide.
 struct trawl_marks {
-    float density = 0;    ///< furrows per metre that one crosses, in [0, 1 / (4 width)]; 0 for none
+    /// Furrows per metre across them, of all directions together, in [0, 1 / (4 width)]; 0 for none. A line in any
+    /// direction meets 2 / pi of them on average.
+    float density = 0;
     float depth = 0.06f;  ///< metres, >= 0
     float width = 0.5f;   ///< metres, from 0.001: between the tops of the berms
     int directions = 2;   ///< 1 to 8: number of directions of towing

@@ -341,13 +341,51 @@ TEST_CASE("Mounds and pock marks of mud have the density, height and volume of t
                          .pock_depth = 0.1f,
                          .pock_share = share,
                          .seed = 6};
-    const auto m = moments_of(sb::sample(recipe, {.spacing = 0.09, .width = 1500, .height = 1500}).heights);
+    const sb::grid around_origin{.origin = {-70, -70}, .spacing = 0.09, .width = 1500, .height = 1500};
+    const auto m = moments_of(sb::sample(recipe, around_origin).heights);
     const double height = share > 0 ? -0.1 : 0.05;
     CHECK((share > 0 ? m.low : m.high) == Approx(height).epsilon(0.05));
     CHECK((share > 0 ? m.high : m.low) == 0);
     // The bump h (1 - (r / R)^2)^2 holds pi R^2 h / 3, with R = size q, h = height q, q uniform in [0.4, 1]: <q^3> is
     // 0.406.
     CHECK(m.mean == Approx(0.3 * pi / 3 * 0.16 * height * 0.406).epsilon(0.05));
+}
+
+TEST_CASE("Trawl marks have the density, depth and width of their parameters") {
+    const int directions = GENERATE(1, 3);
+    const float density = GENERATE(0.02f, 0.1f);
+    const double spacing = 0.02, depth = 0.1;
+    std::vector<float> profile(20000);
+    const double rows = 200 * 2;
+    double furrows = 0, deepest = 0, highest = 0, narrowest = 1e30;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {  // each with headings of its own
+        sb::mud bed{.surface = smooth, .density = 0, .seed = seed};
+        bed.trawls = {.density = density, .depth = 0.1f, .width = 0.5f, .directions = directions, .length = 20};
+        const auto prepared = bed.prepare();
+        for (int row = 0; row < 2; ++row) {
+            prepared.row({.y = 357.3 * row - 200, .origin = -200, .spacing = spacing}, profile);
+            double berm = -1;  // the last sample of the highest part of the berm before a furrow
+            bool inside = false;
+            for (std::size_t i = 1; i + 1 < profile.size(); ++i) {
+                const auto before = static_cast<double>(profile[i - 1]), z = static_cast<double>(profile[i]);
+                const auto next = static_cast<double>(profile[i + 1]);
+                deepest = std::min(deepest, z);
+                highest = std::max(highest, z);
+                if (z < -0.5 * depth && !inside) furrows += 1, inside = true;
+                if (z <= 0.25 * depth || before >= z || next > z) continue;  // not the top of a berm
+                const double here = spacing * static_cast<double>(i);
+                if (inside && berm >= 0) narrowest = std::min(narrowest, here - berm);
+                berm = here;
+                inside = false;
+            }
+        }
+    }
+    // A line at random meets 2 / pi of what a line across the furrows meets.
+    CHECK(furrows / (rows * spacing * 20000) == Approx(2 / pi * static_cast<double>(density)).epsilon(0.1));
+    if (directions > 1) return;  // where furrows cross, their reliefs add
+    CHECK(narrowest == Approx(0.5).margin(2 * spacing));
+    CHECK(deepest == Approx(-depth).epsilon(0.01));
+    CHECK(highest == Approx(0.3 * depth).epsilon(0.01));
 }
 
 TEST_CASE("At a grazing angle of six degrees rock and ripples are a third in shadow, sand and mud almost free of it") {
