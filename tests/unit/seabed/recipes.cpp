@@ -3,6 +3,7 @@
 #include <insonify/seabed/models.hpp>
 #include <insonify/seabed/sample.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 #include "../../catch.hpp"
@@ -186,6 +187,21 @@ TEST_CASE("Relief is as continuous 10^7 m from the origin as at it") {
             }
         }
         CHECK(steepest < 9.0f);
+    }
+}
+
+TEST_CASE("A seabed sinks about as deep as 99 % of its surface strays from its mean level") {
+    std::vector<sb::any> all = kinds();
+    all.back() = sb::ripples{.surface = {.rms = 0.05f}, .seed = 5};  // mixed ones sink as deep as their deepest layer
+    for (const sb::any& kind : all) {
+        const auto field = sb::sample(kind, {.origin = {-20, -20}, .spacing = 0.08, .width = 500, .height = 500});
+        const double mean = moments_of(field.heights).mean;
+        std::vector<double> strayed;
+        for (const float h : field.heights.pixels()) strayed.push_back(std::abs(static_cast<double>(h) - mean));
+        std::sort(strayed.begin(), strayed.end());
+        const double most = strayed[strayed.size() * 99 / 100];
+        CHECK(static_cast<double>(kind.sink_depth()) > 0.6 * most);
+        CHECK(static_cast<double>(kind.sink_depth()) < 2 * most);
     }
 }
 
