@@ -11304,17 +11304,22 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input for a value out of range
 template <across_track Axis>
 void validate(const side_scan_rig<Axis>& rig) {
-    using detail::require, detail::require_range;
-    detail::require_finite("side_scan.position", rig.position);
-    detail::require_finite("side_scan.altitude", rig.altitude);
-    detail::require_angle("side_scan.yaw", rig.yaw);
-    detail::require_positive("side_scan.ping_spacing", rig.ping_spacing);
-    require_range("side_scan.pings", rig.pings, 1, 1 << 20, "1 to 2^20");
-    detail::require_not_negative("side_scan.first_range", rig.first_range);
-    require(rig.range > rig.first_range && rig.range <= 1e5f, "side_scan.range", rig.range,
+    constexpr std::string_view name = Axis == across_track::slant_range ? "side_scan" : "ground_range";
+    const auto require = [=](bool holds, std::string_view member, auto value, std::string_view expected) {
+        detail::require_member(holds, name, member, value, expected);
+    };
+    require(numeric::is_finite(rig.position.x), ".position.x", rig.position.x, "finite");
+    require(numeric::is_finite(rig.position.y), ".position.y", rig.position.y, "finite");
+    require(numeric::is_finite(rig.altitude), ".altitude", rig.altitude, "finite");
+    detail::require_angle(name, rig.yaw, ".yaw");
+    require(numeric::is_finite(rig.ping_spacing) && rig.ping_spacing > 0, ".ping_spacing", rig.ping_spacing,
+            "finite and positive");
+    require(rig.pings >= 1 && rig.pings <= 1 << 20, ".pings", rig.pings, "1 to 2^20");
+    require(rig.first_range >= 0 && numeric::is_finite(rig.first_range), ".first_range", rig.first_range, "0 or more");
+    require(rig.range > rig.first_range && rig.range <= 1e5f, ".range", rig.range,
             "above first_range and at most 10^5 metres");
-    require_range("side_scan.bins", rig.bins, 1, 1 << 20, "1 to 2^20");
-    require(rig.side == side::port || rig.side == side::starboard, "side_scan.side", static_cast<int>(rig.side),
+    require(rig.bins >= 1 && rig.bins <= 1 << 20, ".bins", rig.bins, "1 to 2^20");
+    require(rig.side == side::port || rig.side == side::starboard, ".side", static_cast<int>(rig.side),
             "port or starboard");
 }
 

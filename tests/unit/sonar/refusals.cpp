@@ -52,6 +52,9 @@ TEST_CASE("render() and record() refuse each field of a side-scan rig by name") 
         FIELD(side, {2, 255})};
     check_fields("side_scan.", small_side_scan, rendered, fields);
     check_fields("side_scan.", small_side_scan, recorded, fields);
+    check_fields<in::ground_range>(
+        "ground_range.", {.altitude = 4, .ping_spacing = 0.5f, .pings = 2, .range = 8, .bins = 8}, rendered,
+        {FIELD(position.y, not_finite), FIELD(yaw, not_an_angle), FIELD(bins, outside_whole(1, 1 << 20))});
 }
 
 TEST_CASE("record() refuses each field of a ping by name") {
@@ -320,6 +323,10 @@ TEST_CASE("to_ground_range() refuses rigs and altitudes by name") {
     check_fields(
         "side_scan.", small_side_scan, [&](const in::side_scan& from) { (void)in::to_ground_range(heard, from, to); },
         fields);
+    check_fields<in::ground_range>(
+        "ground_range.", to,
+        [&](const in::ground_range& rig) { (void)in::to_ground_range(heard, small_side_scan, rig); },
+        {FIELD(altitude, not_finite), FIELD(first_range, below_0), FIELD(range, outside(0, 1e5))});
     for (const double value : not_finite) {
         const double altitudes[2]{4, value};
         CHECK_THAT(refusal([&] { (void)in::to_ground_range(heard, small_side_scan, to, altitudes); }),
