@@ -78,7 +78,7 @@ TEST_CASE("A picture of ten kilometres takes as many samples and triangles as on
     }
 }
 
-TEST_CASE("A swath ten kilometres from the origin samples as much seabed as one at the origin") {
+TEST_CASE("A recording ten kilometres from the origin samples as much seabed as one at the origin") {
     in::scene scene;
     scene.seabed = in::seabed::ripples{};
     in::side_scan rig{.altitude = 5, .pings = 64, .range = 30, .bins = 256};
