@@ -98,9 +98,10 @@ class contact_list {
         const examples::longest_shadow shadow = examples::shadow_of(
             c.target, frame, altitude,
             [&](const glm::dvec3& v) { farthest = (std::max)(farthest, geometry::slant_range(v.x, altitude, v.z)); });
-        // From the echo of the vertex that casts the tip to the tip.
-        const double measured =
-            c.shadow_end < 0 || shadow.tip == 0 ? 0 : (c.shadow_end + 1) * rig.bin() - shadow.slant_range;
+        // From the echo of the vertex that casts the tip to the tip. Recordings may end before that echo.
+        const double measured = c.shadow_end < 0 || shadow.tip == 0
+                                    ? 0
+                                    : (std::max)((c.shadow_end + 1) * rig.bin() - shadow.slant_range, 0.0);
         const bool at_an_end = at_the_end || c.first_ping == 0;
         table_.line(std::to_string(target) + "," + c.target.class_name +
                     (c.side == in::side::port ? ",port" : ",starboard") + "," + std::to_string(c.first_ping) + "," +

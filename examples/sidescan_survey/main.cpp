@@ -22,11 +22,17 @@ int main(int argc, char** argv) try {
     std::int64_t total = 0;
     glm::dvec2 low(1e30), high(-1e30);
     survey::fix f{};
-    for (survey::vehicle scout(o.driving, waypoints); scout.ping(f); ++total) {
+    survey::vehicle scout(o.driving, waypoints);
+    for (; scout.ping(f); ++total) {
         low = {(std::min)(low.x, f.at.position.x), (std::min)(low.y, f.at.position.y)};
         high = {(std::max)(high.x, f.at.position.x), (std::max)(high.y, f.at.position.y)};
     }
     if (total == 0) throw in::io_error("the waypoints are too close together for a single ping");
+    if (scout.missed() > 0)
+        std::fprintf(stderr,
+                     "sidescan_survey: %d of %zu waypoints lie within the turning circle and are not reached: lower "
+                     "--speed, or raise --turn-rate or --between\n",
+                     scout.missed(), waypoints.size());
 
     survey::vehicle vehicle(o.driving, waypoints);
     survey::sonar sonar(o, vehicle.spacing());

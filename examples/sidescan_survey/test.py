@@ -144,10 +144,24 @@ class Survey(unittest.TestCase):
         self.assertIn("points.csv' is not a folder", run("--out", self.folder / "points.csv", expect=2))
 
     def test_steps_longer_than_the_turning_circle_reach_the_end(self):
-        run("--out", self.folder, *SMALL, "--length", 63, "--width", 0, "--speed", 2, "--ping-rate", 0.2, "--turn-rate",
-            90, seconds=60)
+        said = run("--out", self.folder, *SMALL, "--length", 63, "--width", 0, "--speed", 2, "--ping-rate", 0.2,
+                   "--turn-rate", 90, seconds=60)
+        self.assertNotIn("not reached", said)
         track = list(csv.DictReader((self.folder / "navigation.csv").read_text().splitlines()))
         self.assertLess(abs(float(track[-1]["y_m"]) - 63), 10)
+
+    def test_waypoints_within_the_turning_circle_are_named(self):
+        (self.folder / "points.csv").write_text("0,0\n12,3\n-3,14\n")
+        out = "--out", self.folder / "a", *SMALL, "--waypoints", self.folder / "points.csv"
+        self.assertIn("1 of 3 waypoints lie within the turning circle", run(*out, "--turn-rate", 6))
+        self.assertNotIn("waypoints", run(*out, "--turn-rate", 60))
+
+    def test_no_shadow_is_shorter_than_nothing(self):
+        run("--out", self.folder, "--length", 12, "--width", 20, "--between", 10, "--range", 15, "--bins", 130,
+            "--altitude", 4, "--bottom", "sand+rock", "--seed", 3)  # the range ends before the top of the last target
+        contacts = list(csv.DictReader((self.folder / "contacts.csv").read_text().splitlines()))
+        self.assertIn("true", {contact["target_is_cut"] for contact in contacts})
+        self.assertGreaterEqual(min(float(contact["shadow_measured_m"]) for contact in contacts), 0)
 
     def test_a_shorter_survey_leaves_no_page_of_a_longer_one(self):
         run("--out", self.folder, *SMALL, "--page", 32)

@@ -91,7 +91,10 @@ class vehicle {
 
     /// Moves on to the next ping. @returns false at the last waypoint
     bool ping(fix& f) {
-        while (next_ < points_.size() && has_reached_next()) ++next_;
+        while (next_ < points_.size() && (is_at_next() || has_passed_next())) {
+            if (distance_to_next() >= (std::max)(handling_.arrival, spacing())) ++missed_;
+            ++next_;
+        }
         if (next_ >= points_.size()) return false;
         const double step = 1 / handling_.ping_rate, time = static_cast<double>(number_) * step;
         // Turns the shorter way, limited by the turn rate.
@@ -110,6 +113,8 @@ class vehicle {
     }
 
     double spacing() const { return handling_.speed / handling_.ping_rate; }
+    /// Waypoints so far that it passed at a distance.
+    int missed() const { return missed_; }
 
   private:
     /// Yaw towards the next waypoint.
@@ -117,14 +122,18 @@ class vehicle {
         const glm::dvec2 to = points_[(std::min)(next_, points_.size() - 1)] - place_;
         return in::numeric::atan2(-to.x, to.y);
     }
-    /// Whether the next waypoint is reached, or passed: one within the turning circle can't be reached.
-    bool has_reached_next() const {
-        const glm::dvec2 to = points_[next_] - place_;
+    glm::dvec2 to_next() const { return points_[next_] - place_; }
+    double distance_to_next() const {
+        const glm::dvec2 to = to_next();
+        return in::numeric::square_root(to.x * to.x + to.y * to.y);
+    }
+    bool is_at_next() const { return distance_to_next() < handling_.arrival; }
+    /// Whether the next waypoint lies behind: one within the turning circle can't be reached.
+    bool has_passed_next() const {
         const auto [sine, cosine] = in::numeric::sin_cos(yaw_);
-        const double distance = in::numeric::square_root(to.x * to.x + to.y * to.y);
         // A step from ping to ping may be longer than the turning circle.
         const double circle = (std::max)(2 * handling_.speed / in::numeric::to_radians(handling_.turn_rate), spacing());
-        return distance < handling_.arrival || (distance < circle && -to.x * sine + to.y * cosine < 0);
+        return distance_to_next() < circle && -to_next().x * sine + to_next().y * cosine < 0;
     }
 
     handling handling_;
@@ -132,6 +141,7 @@ class vehicle {
     glm::dvec2 place_;
     double yaw_ = 0;
     std::size_t next_ = 1;
+    int missed_ = 0;
     std::int64_t number_ = 0;
 };
 

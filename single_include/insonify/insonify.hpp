@@ -1331,7 +1331,7 @@ void require_positive(std::string_view argument, Number value) {
 }
 template <std::floating_point Number>
 void require_not_negative(std::string_view argument, Number value) {
-    require(numeric::is_finite(value) && value >= 0, argument, value, "0 or more");
+    require(numeric::is_finite(value) && value >= 0, argument, value, "0 or more, finite");
 }
 template <arithmetic Number>
 void require_range(std::string_view argument, Number value, std::type_identity_t<Number> low,
@@ -4033,6 +4033,11 @@ inline void require_gamma_shape(const char* name, const parameter& shape) {
         name, [](float v) { return v >= 0.01f && v <= 1e6f; }, "0.01 to 1e6");
 }
 
+/// Checks what pixels are said to hold.
+inline void require_echo(const char* name, echo of) {
+    require(of == echo::amplitude || of == echo::intensity, name, static_cast<int>(of), "amplitude or intensity");
+}
+
 }  // namespace detail::inline INSONIFY_FLAGS
 
 /// Fully developed speckle: exponential intensities, Rayleigh amplitudes, of which std / mean is 0.5227.
@@ -4044,8 +4049,9 @@ struct rayleigh {
 
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for a correlation length outside 0 to 16
+    /// @throws invalid_input for an `of` that is no enumerator, or a correlation length outside 0 to 16
     INSONIFY_MEMBER auto pass() const {
+        detail::require_echo("rayleigh.of", of);
         detail::require_correlation("rayleigh.correlation", correlation);
         return detail::echo_pass<detail::echo_draw::exponential>(detail::noise_stream::rayleigh, seed, frame,
                                                                  {"rayleigh"}, of, correlation);
@@ -4062,10 +4068,12 @@ struct gamma_speckle {
 
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for looks outside 0.01 to 1e6, a correlation length outside 0 to 16, or correlation with
-    ///         looks other than one whole number from 1 to 64; on application, for a map of another size than the image
+    /// @throws invalid_input for looks outside 0.01 to 1e6, an `of` that is no enumerator, a correlation length outside
+    ///         0 to 16, or correlation with looks other than one whole number from 1 to 64; on application, for a map
+    ///         of another size than the image
     INSONIFY_TAGGED auto pass() const {
         detail::require_gamma_shape("gamma_speckle.looks", looks);
+        detail::require_echo("gamma_speckle.of", of);
         detail::require_correlation("gamma_speckle.correlation", correlation);
         return detail::echo_pass<detail::echo_draw::gamma>(detail::noise_stream::gamma_speckle, seed, frame,
                                                            {"gamma_speckle.looks", looks}, of, correlation);
@@ -4087,12 +4095,13 @@ struct k_speckle {
 
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for a shape or looks outside 0.01 to 1e6, a correlation length outside 0 to 16, or
-    ///         correlation with looks other than a whole number from 1 to 64; on application, for a map of another size
-    ///         than the image
+    /// @throws invalid_input for a shape or looks outside 0.01 to 1e6, an `of` that is no enumerator, a correlation
+    ///         length outside 0 to 16, or correlation with looks other than a whole number from 1 to 64; on
+    ///         application, for a map of another size than the image
     INSONIFY_TAGGED auto pass() const {
         detail::require_gamma_shape("k_speckle.shape", shape);
         detail::require_gamma_shape("k_speckle.looks", looks);
+        detail::require_echo("k_speckle.of", of);
         detail::require_correlation("k_speckle.correlation", correlation);
         return detail::echo_pass<detail::echo_draw::by_looks>(detail::noise_stream::k_speckle, seed, frame,
                                                               {"k_speckle.shape", looks, shape}, of, correlation);
@@ -4111,11 +4120,12 @@ struct rician {
 
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for a steady part outside 0 to 1e6, or a correlation length outside 0 to 16; on
-    ///         application, for a map of another size than the image
+    /// @throws invalid_input for a steady part outside 0 to 1e6, an `of` that is no enumerator, or a correlation length
+    ///         outside 0 to 16; on application, for a map of another size than the image
     INSONIFY_TAGGED auto pass() const {
         steady.check(
             "rician.steady", [](float v) { return v >= 0 && v <= 1e6f; }, "0 to 1e6");
+        detail::require_echo("rician.of", of);
         detail::require_correlation("rician.correlation", correlation);
         return detail::echo_pass<detail::echo_draw::rice>(detail::noise_stream::rician, seed, frame,
                                                           {"rician.steady", 1, 0, steady}, of, correlation);
@@ -8498,9 +8508,11 @@ struct ground {
 inline namespace INSONIFY_FLAGS {
 
 /// Height and label at one position. For many positions prepare the model once, and pass the sampler.
-/// @throws invalid_input for parameters of the model out of their range
+/// @throws invalid_input for parameters of the model out of their range, or a position beyond 1e9 m
 template <model M>
 ground at(const M& m, double x, double y) {
+    // Cells of the relief are counted in integers. Names of arguments are strings: none is made for valid positions.
+    if (!(x >= -1e9 && x <= 1e9 && y >= -1e9 && y <= 1e9)) detail::require_position("position", {x, y});
     ground result{};
     seabed::prepare(m).row({.y = y, .origin = x}, {&result.height, 1}, {&result.kind, 1});
     return result;
@@ -19418,7 +19430,10 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         found.subpixel_bits = detail::max_subpixel_bits(rig);
     found.silhouette_error = tolerated.silhouette;
     found.shadow_edge_error = 0.5 * tolerated.shadow_edge;
-    if (bottom.empty()) return found;
+    if (bottom.empty()) {
+        found.expected = {.shadow_edge = 0, .silhouette = tolerated.silhouette, .height = 0, .intensity = 0};
+        return found;
+    }
 
     const detail::seabed_probe probed(bottom, rig, how, ex);
     const double pixel = view.ground_sampling();
@@ -27340,7 +27355,7 @@ inline constexpr instrument side_scan_600{"side_scan_600", 600e3f, 0.0058f, 0.01
 inline constexpr instrument side_scan_900{"side_scan_900", 900e3f, 0.0049f, 0.01f, 0, 60, 1, 36, 322, 0.87f, 0.35f};
 /// 1800 kHz side-scan of small vehicles: EdgeTech 2205 and 4125 at 1600 kHz, Marine Sonic at 1800 kHz.
 inline constexpr instrument side_scan_1800{
-    "side_scan_1800", 1800e3f, 0.0035f, 0.006f, 0, 25, 1, 34, 1070, 0.87f, 0.35f};
+    "side_scan_1800", 1800e3f, 0.0035f, 0.006f, 0, 25, 1, 34, 1143, 0.87f, 0.35f};
 /// Interferometric synthetic aperture of 60 to 120 kHz: Kongsberg HISAS 1032 (R. E. Hansen. Introduction to Synthetic
 /// Aperture Sonar. In: Sonar Systems, 2011).
 inline constexpr instrument synthetic_aperture{

@@ -145,7 +145,10 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         found.subpixel_bits = detail::max_subpixel_bits(rig);
     found.silhouette_error = tolerated.silhouette;
     found.shadow_edge_error = 0.5 * tolerated.shadow_edge;
-    if (bottom.empty()) return found;
+    if (bottom.empty()) {
+        found.expected = {.shadow_edge = 0, .silhouette = tolerated.silhouette, .height = 0, .intensity = 0};
+        return found;
+    }
 
     const detail::seabed_probe probed(bottom, rig, how, ex);
     const double pixel = view.ground_sampling();

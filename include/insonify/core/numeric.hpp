@@ -234,7 +234,7 @@ void require_positive(std::string_view argument, Number value) {
 }
 template <std::floating_point Number>
 void require_not_negative(std::string_view argument, Number value) {
-    require(numeric::is_finite(value) && value >= 0, argument, value, "0 or more");
+    require(numeric::is_finite(value) && value >= 0, argument, value, "0 or more, finite");
 }
 template <arithmetic Number>
 void require_range(std::string_view argument, Number value, std::type_identity_t<Number> low,

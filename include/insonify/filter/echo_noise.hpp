@@ -23,6 +23,11 @@ inline void require_gamma_shape(const char* name, const parameter& shape) {
         name, [](float v) { return v >= 0.01f && v <= 1e6f; }, "0.01 to 1e6");
 }
 
+/// Checks what pixels are said to hold.
+inline void require_echo(const char* name, echo of) {
+    require(of == echo::amplitude || of == echo::intensity, name, static_cast<int>(of), "amplitude or intensity");
+}
+
 }  // namespace detail::inline INSONIFY_FLAGS
 
 /// Fully developed speckle: exponential intensities, Rayleigh amplitudes, of which std / mean is 0.5227.
@@ -34,8 +39,9 @@ struct rayleigh {
 
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for a correlation length outside 0 to 16
+    /// @throws invalid_input for an `of` that is no enumerator, or a correlation length outside 0 to 16
     INSONIFY_MEMBER auto pass() const {
+        detail::require_echo("rayleigh.of", of);
         detail::require_correlation("rayleigh.correlation", correlation);
         return detail::echo_pass<detail::echo_draw::exponential>(detail::noise_stream::rayleigh, seed, frame,
                                                                  {"rayleigh"}, of, correlation);
@@ -52,10 +58,12 @@ struct gamma_speckle {
 
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for looks outside 0.01 to 1e6, a correlation length outside 0 to 16, or correlation with
-    ///         looks other than one whole number from 1 to 64; on application, for a map of another size than the image
+    /// @throws invalid_input for looks outside 0.01 to 1e6, an `of` that is no enumerator, a correlation length outside
+    ///         0 to 16, or correlation with looks other than one whole number from 1 to 64; on application, for a map
+    ///         of another size than the image
     INSONIFY_TAGGED auto pass() const {
         detail::require_gamma_shape("gamma_speckle.looks", looks);
+        detail::require_echo("gamma_speckle.of", of);
         detail::require_correlation("gamma_speckle.correlation", correlation);
         return detail::echo_pass<detail::echo_draw::gamma>(detail::noise_stream::gamma_speckle, seed, frame,
                                                            {"gamma_speckle.looks", looks}, of, correlation);
@@ -77,12 +85,13 @@ struct k_speckle {
 
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for a shape or looks outside 0.01 to 1e6, a correlation length outside 0 to 16, or
-    ///         correlation with looks other than a whole number from 1 to 64; on application, for a map of another size
-    ///         than the image
+    /// @throws invalid_input for a shape or looks outside 0.01 to 1e6, an `of` that is no enumerator, a correlation
+    ///         length outside 0 to 16, or correlation with looks other than a whole number from 1 to 64; on
+    ///         application, for a map of another size than the image
     INSONIFY_TAGGED auto pass() const {
         detail::require_gamma_shape("k_speckle.shape", shape);
         detail::require_gamma_shape("k_speckle.looks", looks);
+        detail::require_echo("k_speckle.of", of);
         detail::require_correlation("k_speckle.correlation", correlation);
         return detail::echo_pass<detail::echo_draw::by_looks>(detail::noise_stream::k_speckle, seed, frame,
                                                               {"k_speckle.shape", looks, shape}, of, correlation);
@@ -101,11 +110,12 @@ struct rician {
 
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for a steady part outside 0 to 1e6, or a correlation length outside 0 to 16; on
-    ///         application, for a map of another size than the image
+    /// @throws invalid_input for a steady part outside 0 to 1e6, an `of` that is no enumerator, or a correlation length
+    ///         outside 0 to 16; on application, for a map of another size than the image
     INSONIFY_TAGGED auto pass() const {
         steady.check(
             "rician.steady", [](float v) { return v >= 0 && v <= 1e6f; }, "0 to 1e6");
+        detail::require_echo("rician.of", of);
         detail::require_correlation("rician.correlation", correlation);
         return detail::echo_pass<detail::echo_draw::rice>(detail::noise_stream::rician, seed, frame,
                                                           {"rician.steady", 1, 0, steady}, of, correlation);

@@ -313,9 +313,11 @@ struct ground {
 inline namespace INSONIFY_FLAGS {
 
 /// Height and label at one position. For many positions prepare the model once, and pass the sampler.
-/// @throws invalid_input for parameters of the model out of their range
+/// @throws invalid_input for parameters of the model out of their range, or a position beyond 1e9 m
 template <model M>
 ground at(const M& m, double x, double y) {
+    // Cells of the relief are counted in integers. Names of arguments are strings: none is made for valid positions.
+    if (!(x >= -1e9 && x <= 1e9 && y >= -1e9 && y <= 1e9)) detail::require_position("position", {x, y});
     ground result{};
     seabed::prepare(m).row({.y = y, .origin = x}, {&result.height, 1}, {&result.kind, 1});
     return result;

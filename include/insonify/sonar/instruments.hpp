@@ -61,7 +61,7 @@ inline constexpr instrument side_scan_600{"side_scan_600", 600e3f, 0.0058f, 0.01
 inline constexpr instrument side_scan_900{"side_scan_900", 900e3f, 0.0049f, 0.01f, 0, 60, 1, 36, 322, 0.87f, 0.35f};
 /// 1800 kHz side-scan of small vehicles: EdgeTech 2205 and 4125 at 1600 kHz, Marine Sonic at 1800 kHz.
 inline constexpr instrument side_scan_1800{
-    "side_scan_1800", 1800e3f, 0.0035f, 0.006f, 0, 25, 1, 34, 1070, 0.87f, 0.35f};
+    "side_scan_1800", 1800e3f, 0.0035f, 0.006f, 0, 25, 1, 34, 1143, 0.87f, 0.35f};
 /// Interferometric synthetic aperture of 60 to 120 kHz: Kongsberg HISAS 1032 (R. E. Hansen. Introduction to Synthetic
 /// Aperture Sonar. In: Sonar Systems, 2011).
 inline constexpr instrument synthetic_aperture{

@@ -187,7 +187,12 @@ TEST_CASE("Settings are values: they can be read, changed and handed to render")
     CHECK(in::render(scene, t.rig, options).stats.seabed_columns >= 37);
 
     // Without a seabed there is nothing to probe.
-    const auto bare = acc::settings_for({.shadow_edge = 0.5, .silhouette = 0.001}, sb::none{}, t.rig);
+    const acc::budget tolerated{.shadow_edge = 0.5, .silhouette = 0.001};
+    const auto bare = acc::settings_for(tolerated, sb::none{}, t.rig);
+    CHECK(acc::is_within(bare.expected, tolerated));
+    CHECK(bare.expected.shadow_edge == 0);
+    CHECK(bare.expected.height == 0);
+    CHECK(bare.expected.intensity == 0);
     CHECK(bare.subpixel_bits == 16);
     CHECK(acc::settings_for({.silhouette = 0.5}, sb::none{}, t.rig).subpixel_bits ==
           in::render_options<>{}.subpixel_bits);

@@ -69,6 +69,14 @@ TEST_CASE("Echo noise refuses each field by name") {
         "rician.", {}, use,
         {PARAMETER(steady, outside(0, 1e6)),
          {"correlation", [](auto& o, double v) { o.correlation.x = static_cast<float>(v); }, outside(0, 16)}});
+    const auto check_echo = [](auto filter, const std::string& name) {
+        filter.of = static_cast<in::echo>(2);
+        CHECK_THROWS_WITH(use(filter), ContainsSubstring(name + ".of is 2, expected amplitude or intensity"));
+    };
+    check_echo(in::rayleigh{}, "rayleigh");
+    check_echo(in::gamma_speckle{}, "gamma_speckle");
+    check_echo(in::k_speckle{}, "k_speckle");
+    check_echo(in::rician{}, "rician");
 }
 
 TEST_CASE("A parameter by pixel or by type is refused for a single value out of range") {

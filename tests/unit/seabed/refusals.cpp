@@ -156,3 +156,12 @@ TEST_CASE("A length refused for being too large names the limit") {
     CHECK_THAT(refusal([&] { done(sb::raise{.height = -1e6f}); }), ContainsSubstring("between -10^6 and 10^6"));
     CHECK_THAT(refusal([&] { done(sb::heap{.slope = 1e6f}); }), ContainsSubstring("below 10^6"));
 }
+
+TEST_CASE("at() refuses a position that is not within 1e9 metres") {
+    struct position {
+        double x = 0, y = 0;
+    };
+    for (const sb::any& bottom : {sb::any(sb::ripples{}), sb::any(sb::rock{}), sb::any(sb::flat{})})
+        check_fields<position>("position.", {}, [&](const position& p) { (void)sb::at(bottom, p.x, p.y); },
+                               {FIELD(x, outside(-1e9, 1e9)), FIELD(y, outside(-1e9, 1e9))});
+}

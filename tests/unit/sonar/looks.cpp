@@ -407,6 +407,21 @@ TEST_CASE("facet_backscatter() is Lambert's law with a peak at normal incidence"
     for (const float s : {1e-3f, 5e-4f, 1e-6f, 1e-30f}) CHECK(muddy(s) == Approx(0.5f * s).epsilon(1e-2));
 }
 
+// Ainslie and McColm 1998 in salt water, at 10 degrees, 20 m, pH 8 and a salinity of 35.
+TEST_CASE("The absorption of an instrument is that of sea water at its frequency") {
+    const double temperature = 10, depth_km = 0.02;
+    const double boron = 0.78 * std::exp(temperature / 26), magnesium = 42 * std::exp(temperature / 17);  // kHz
+    for (const in::instrument& i : in::instruments::all) {
+        const double f = static_cast<double>(i.frequency) / 1000, square = f * f;
+        const double expected = 0.106 * boron * square / (square + boron * boron) +
+                                0.52 * (1 + temperature / 43) * magnesium * square / (square + magnesium * magnesium) *
+                                    std::exp(-depth_km / 6) +
+                                0.00049 * square * std::exp(-(temperature / 27 + depth_km / 17));
+        CAPTURE(i.name, expected);
+        CHECK(std::abs(static_cast<double>(i.absorption_per_km) - expected) <= 0.51);  // rounded to a decibel
+    }
+}
+
 TEST_CASE("Instruments are found by name; speckle lengths follow from pulse, beam or aperture") {
     for (const in::instrument& i : in::instruments::all) {
         CHECK(in::instrument_named(i.name).frequency == i.frequency);
