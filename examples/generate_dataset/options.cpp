@@ -189,7 +189,8 @@ options parsed(int argc, const char* const* argv,
         ->check(number(0, 1))
         ->group(scene);
     app.add_option("--per-class", o.per_class,
-                   "CLASS=COUNT,...: number of images of each class, one class after the other instead of in turn")
+                   "CLASS=COUNT,...: number of images of each class, one class after the other instead of in turn;\n"
+                   "again from the first for a larger --count")
         ->delimiter(',')
         ->group(scene);
     app.add_option("--targets", o.targets,
