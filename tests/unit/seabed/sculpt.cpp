@@ -48,12 +48,17 @@ TEST_CASE("Flattened ground is level but for its edge") {
     CHECK(sb::at(bed, 5, 0).height == sb::at(sb::ripples{}, 5, 0).height);
 }
 
-TEST_CASE("Ramps rise linearly from one end to the other") {
+TEST_CASE("Ramps rise linearly from one end to the other, and fade at their sides and beyond their ends") {
     const std::vector<sb::edit> edits{sb::ramp{{1, 1}, {5, 4}, 2, 0.1f, 1.1f}};
     for (const double t : {0.0, 0.25, 0.5, 1.0})
         CHECK(height(edits, 1 + 4 * t, 1 + 3 * t) == Approx(0.1 + t).margin(1e-6));
-    CHECK(height(edits, 3 - 0.6 * 0.7, 2.5 + 0.8 * 0.7) == Approx(0.6).margin(1e-6));  // 0.7 m beside the middle
-    CHECK(height(edits, 3 - 0.6 * 1.1, 2.5 + 0.8 * 1.1) == 0);
+    CHECK(height(edits, 3 - 0.6 * 0.7, 2.5 + 0.8 * 0.7) == Approx(0.6).margin(1e-6));      // 0.7 m beside the middle
+    CHECK(height(edits, 3 - 0.6 * 0.875, 2.5 + 0.8 * 0.875) == Approx(0.3).margin(1e-6));  // the middle of an edge
+    CHECK(height(edits, 3 - 0.6 * 1.01, 2.5 + 0.8 * 1.01) == 0);
+    CHECK(height(edits, 5 + 0.8 * 0.25, 4 + 0.6 * 0.25) == Approx(0.55).margin(1e-6));
+    CHECK(height(edits, 5 + 0.8 * 0.51, 4 + 0.6 * 0.51) == 0);
+    CHECK(height(edits, 1 - 0.8 * 0.25, 1 - 0.6 * 0.25) == Approx(0.05).margin(1e-6));
+    CHECK(height(edits, 1 - 0.8 * 0.51, 1 - 0.6 * 0.51) == 0);
 }
 
 TEST_CASE("Furrows follow a path; marks come at equal steps along it, around corners too") {
