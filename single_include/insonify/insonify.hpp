@@ -2322,7 +2322,7 @@ INSONIFY_INLINE void log_uniform_lanes(lanes<float, N>& into, const lanes<std::u
     log_lanes<N>(into, k, floats(shifted >= 0 ? 0.0f - from_end : m - 1.0f));
 }
 
-/// sqrt(-2 ln u) of a uniform number: 0 to 6.66.
+/// sqrt(-2 ln u) of a uniform number: 0 to 6.76.
 template <int N>
 INSONIFY_INLINE void radius_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
     log_uniform_lanes<N>(into, word);
@@ -2395,7 +2395,7 @@ constexpr double uniform_open(std::uint32_t word) {
     return (static_cast<double>(word) + 0.5) * 0x1p-32;
 }
 
-/// Two independent standard normal draws from two words (Box and Muller, 1958); reaches 6.66 sigma.
+/// Two independent standard normal draws from two words (Box and Muller, 1958); reaches 6.76 sigma.
 inline std::array<double, 2> normal_pair(std::uint32_t a, std::uint32_t b) {
     double first, second;
     detail::normal_lanes<1>(first, second, std::uint64_t{a}, std::uint64_t{b});
