@@ -14,10 +14,17 @@
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Specialize as true for a vector of floats that is not an aggregate and has no `value_type`.
+/// Whether a class that is not an aggregate is a vector of floats: its `value_type` is float, and it does not refer to
+/// them, as spans and views do by `data()`, nor may it lack one, as std::optional may. Specialize as true for others.
 template <class V>
-inline constexpr bool is_vector_of_floats = requires {
+inline constexpr bool is_vector_of_floats = requires(const V& v) {
     requires std::is_same_v<typename V::value_type, float>;
+    requires !requires {
+        v.data();
+    };
+    requires !requires {
+        *v;
+    };
 };
 /// A float counts as a vector of one.
 template <>
