@@ -74,7 +74,7 @@ in::scene wreck_on_gravel() {
     return scene;
 }
 
-/// The towfish descends from 14 m to 4 m and sways about its course.
+/// The towfish descends from 14.5 m to 4 m and sways about its course.
 std::vector<in::ping> tow_of(const in::side_scan& rig) {
     std::vector<in::ping> track = in::track_of(rig);
     for (std::size_t i = 0; i < track.size(); ++i) {

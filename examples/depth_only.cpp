@@ -26,6 +26,6 @@ int main() {
     for (const float d : depth.pixels()) nearest = (std::max)(nearest, d);
     std::printf("%llu triangles, the nearest point is %.2f m away\n", static_cast<unsigned long long>(stats.triangles),
                 0.1 / static_cast<double>(nearest));
-    const auto shade = [=](float d) { return d > 0 ? 0.2f / nearest * d * 4 : 0.0f; };
+    const auto shade = [=](float d) { return d > 0 ? 0.8f * d / nearest : 0.0f; };
     in::write_png("depth.png", depth | shade);
 }

@@ -50,7 +50,7 @@ def main():
             ours, theirs = written
             differing = sorted(str(path) for path in ours.keys() | theirs.keys() if ours.get(path) != theirs.get(path))
             print(f"{name} {options}: {len(ours)} files, {len(differing)} of them different", *differing[:5], sep="\n    ")
-            failed |= bool(differing)
+            failed |= bool(differing) or not ours
     sys.exit(failed)
 
 

@@ -35,7 +35,8 @@ inline bool is_picture(std::string_view bytes) {
            bytes.starts_with("BM");
 }
 
-/// @param limit  bytes that the decoded picture may take, three samples of 16 bits a pixel
+/// @param limit  bytes that a decoded PNG, JPEG or BMP may take, three samples of 16 bits a pixel; other formats
+///               decode to at most four times their own bytes
 /// @throws insonify::io_error, with the name, for bytes that are no picture
 inline insonify::image<float> parse_gray(std::string_view bytes, const std::string& name,
                                          std::uint64_t limit = 6 * usual_input_limit) {

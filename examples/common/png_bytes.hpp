@@ -17,6 +17,7 @@ std::string png_bytes(const insonify::image<Pixel>& picture) {
         static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
     };
     constexpr int channels = sizeof(Pixel);
+    static_assert(channels == 1 || channels == 3);
     if (stbi_write_png_to_func(append, &bytes, picture.width(), picture.height(), channels, picture.pixels().data(),
                                channels * picture.width()) == 0)
         throw std::bad_alloc();

@@ -23,7 +23,7 @@ inline void check_arguments(int argc, char** argv, int fewest, int most, const c
         }
     }
     if (argc - 1 >= fewest && argc - 1 <= most) return;
-    std::fprintf(stderr, "%d arguments are too %s. Usage: %s\n", argc - 1, argc - 1 < fewest ? "few" : "many", usage);
+    std::fprintf(stderr, "Too %s arguments: %d. Usage: %s\n", argc - 1 < fewest ? "few" : "many", argc - 1, usage);
     std::exit(2);
 }
 

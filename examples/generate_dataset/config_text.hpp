@@ -38,7 +38,9 @@ class strict_config : public CLI::ConfigTOML {
         std::istringstream lines(text);
         std::string line;
         bool in_array = false;
-        for (std::size_t number = 1; std::getline(lines, line); ++number) {
+        std::size_t number = 0;
+        while (std::getline(lines, line)) {
+            ++number;
             if (std::any_of(line.begin(), line.end(), examples::is_control))
                 refuse(number, "this is not a text file; write lines like `count = 24`");
             line = without_comment(line);
@@ -63,7 +65,7 @@ class strict_config : public CLI::ConfigTOML {
             if (value == "[") refuse(number, "'" + name + " = [': begin the list on this line");
             in_array = value.starts_with('[') && !value.ends_with(']');
         }
-        if (in_array) refuse(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')), "']' is missing");
+        if (in_array) refuse(number, "']' is missing");
     }
 
     /// The text without comments, which CLI11 takes for a part of the value after a list.

@@ -577,7 +577,8 @@ class Generator(unittest.TestCase):
                              (b"count = -1\n", "--count: '-1'"), (b"count =\n", "'count' has no value"),
                              (b"targets = [\n\"cone\",\n]\n", "begin the list on this line"),
                              (b"out = my sets/a\n", "line 1: 'out': put a value with blanks in quotes"),
-                             (b"targets = [\"cone\",\n\"cube\"\n", "']' is missing")):
+                             (b"targets = [\"cone\",\n\"cube\"\n", "line 2: ']' is missing"),
+                             (b"targets = [\"cone\"", "line 1: ']' is missing")):
             config.write_bytes(text)
             self.assertIn(reason, refusal("--config", config, "--out", out))
             self.assertFalse(out.exists())

@@ -2322,7 +2322,7 @@ INSONIFY_INLINE void log_uniform_lanes(lanes<float, N>& into, const lanes<std::u
     log_lanes<N>(into, k, floats(shifted >= 0 ? 0.0f - from_end : m - 1.0f));
 }
 
-/// sqrt(-2 ln u) of a uniform number: 0 to 6.66.
+/// sqrt(-2 ln u) of a uniform number: 0 to 6.76.
 template <int N>
 INSONIFY_INLINE void radius_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
     log_uniform_lanes<N>(into, word);
@@ -2395,7 +2395,7 @@ constexpr double uniform_open(std::uint32_t word) {
     return (static_cast<double>(word) + 0.5) * 0x1p-32;
 }
 
-/// Two independent standard normal draws from two words (Box and Muller, 1958); reaches 6.66 sigma.
+/// Two independent standard normal draws from two words (Box and Muller, 1958); reaches 6.76 sigma.
 inline std::array<double, 2> normal_pair(std::uint32_t a, std::uint32_t b) {
     double first, second;
     detail::normal_lanes<1>(first, second, std::uint64_t{a}, std::uint64_t{b});
@@ -7040,13 +7040,16 @@ inline topology inspect(const mesh& m) {
     };
     detail::dynamic_array<double> volume(m.positions.size());  // by piece, six times the enclosed volume
     sides.reserve(3 * m.triangles.size());
+    const auto is_degenerate = [&](const glm::uvec3& t) {
+        return first[t.x] == first[t.y] || first[t.y] == first[t.z] || first[t.z] == first[t.x];
+    };
     for (const glm::uvec3& t : m.triangles) {
-        const std::uint32_t corners[3] = {first[t.x], first[t.y], first[t.z]};
-        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) {
+        if (is_degenerate(t)) {
             ++out.degenerate;
             continue;
         }
         ++out.triangles;
+        const std::uint32_t corners[3] = {first[t.x], first[t.y], first[t.z]};
         for (std::size_t i = 0; i < 3; ++i) {
             const auto [a, b] = std::pair(corners[i], corners[(i + 1) % 3]);
             sides.push_back({std::uint64_t{(std::min)(a, b)} << 32 | (std::max)(a, b), a < b ? 1u : 0u});
@@ -7058,6 +7061,7 @@ inline topology inspect(const mesh& m) {
     detail::radix_sort(sides);
 
     for (const glm::uvec3& t : m.triangles) {
+        if (is_degenerate(t)) continue;  // its volume would not be 0 if a corner is far away or not finite
         const std::uint32_t piece = piece_of(t.x);
         const glm::dvec3 from(m.positions[piece]);
         volume[piece] +=
@@ -11638,7 +11642,7 @@ struct render_options {
     Law law{};
     double cell = 0;  ///< metres between the vertices at which the seabed is sampled; 0: two pixels on level ground
     /// How far towards the light the seabed may cast from, at most, in lengths of the picture. Less is sampled if its
-    /// heights throw no shadow that far; light below 1 degree over rock comes from farther.
+    /// heights throw no shadow that far; with the light below 1 degree, rock casts shadows from farther.
     float reach = 8;
     /// See draw_options. Whether a pixel faces the light follows from the triangle that it shows.
     int subpixel_bits = std::is_same_v<Shadow, shadow::none> ? 8 : 12;
@@ -11742,7 +11746,7 @@ frame<Labels> render(const scene& s, const overhead& rig,
 
 /// The triangles that `render` shows with the same options.
 /// @throws invalid_input as `render` does
-template <class Shadow = shadow::exact, class Labels = labels, class Law = lambert,
+template <class Shadow = shadow::exact, class Labels = labels, backscatter_law Law = lambert,
           depth_precision Depth = depth_precision::quick, executor_argument E = serial_executor>
 visibility visible_triangles(const scene& s, const overhead& rig,
                              const render_options<Shadow, Labels, Law, Depth>& options = {}, E&& ex = {}) {
@@ -12952,10 +12956,18 @@ INSONIFY_ARITHMETIC_END
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Specialize as true for a vector of floats that is not an aggregate and has no `value_type`.
+/// Whether a class that is not an aggregate is a vector of floats: its `value_type` is float, and it neither refers to
+/// them, as spans and views do, whose `data()` of a constant is that of a variable, nor may lack one, as std::optional
+/// may. Specialize as true for others.
 template <class V>
-inline constexpr bool is_vector_of_floats = requires {
+inline constexpr bool is_vector_of_floats = requires(V& variable, const V& constant) {
     requires std::is_same_v<typename V::value_type, float>;
+    requires !requires {
+        requires std::is_same_v<decltype(variable.data()), decltype(constant.data())>;
+    };
+    requires !requires {
+        *constant;
+    };
 };
 /// A float counts as a vector of one.
 template <>
@@ -23448,7 +23460,7 @@ struct smooth {
 /// A straight slope between two points, like a slipway.
 struct ramp {
     glm::dvec2 from{0.0, 0.0}, to{1.0, 0.0};
-    float width = 1;                          ///< metres, > 0: with its edges, a quarter of it each
+    float width = 1;                          ///< metres, > 0: with its edges, an eighth of it each
     float from_height = 0, to_height = 0.5f;  ///< metres above the datum
 };
 
@@ -23559,7 +23571,7 @@ inline float height_after(const ramp& e, const glm::dvec2& p, float height) {
     const double square = way.x * way.x + way.y * way.y, span = numeric::square_root(square);
     const double t = (way.x * off.x + way.y * off.y) / square;
     const double side = (way.x * off.y - way.y * off.x) / span;
-    // Beyond its ends the ramp is level, and fades as at its sides.
+    // Beyond its ends the ramp is level and fades within a quarter of its width.
     const double past = (t < 0 ? -t : t > 1 ? t - 1 : 0.0) * span;
     const float weight = plateau(static_cast<float>(2 * numeric::abs(side)) / e.width) *
                          fade(saturate(1 - 4 * static_cast<float>(past) / e.width));

@@ -80,13 +80,16 @@ inline topology inspect(const mesh& m) {
     };
     detail::dynamic_array<double> volume(m.positions.size());  // by piece, six times the enclosed volume
     sides.reserve(3 * m.triangles.size());
+    const auto is_degenerate = [&](const glm::uvec3& t) {
+        return first[t.x] == first[t.y] || first[t.y] == first[t.z] || first[t.z] == first[t.x];
+    };
     for (const glm::uvec3& t : m.triangles) {
-        const std::uint32_t corners[3] = {first[t.x], first[t.y], first[t.z]};
-        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) {
+        if (is_degenerate(t)) {
             ++out.degenerate;
             continue;
         }
         ++out.triangles;
+        const std::uint32_t corners[3] = {first[t.x], first[t.y], first[t.z]};
         for (std::size_t i = 0; i < 3; ++i) {
             const auto [a, b] = std::pair(corners[i], corners[(i + 1) % 3]);
             sides.push_back({std::uint64_t{(std::min)(a, b)} << 32 | (std::max)(a, b), a < b ? 1u : 0u});
@@ -98,6 +101,7 @@ inline topology inspect(const mesh& m) {
     detail::radix_sort(sides);
 
     for (const glm::uvec3& t : m.triangles) {
+        if (is_degenerate(t)) continue;  // its volume would not be 0 if a corner is far away or not finite
         const std::uint32_t piece = piece_of(t.x);
         const glm::dvec3 from(m.positions[piece]);
         volume[piece] +=

@@ -14,10 +14,18 @@
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Specialize as true for a vector of floats that is not an aggregate and has no `value_type`.
+/// Whether a class that is not an aggregate is a vector of floats: its `value_type` is float, and it neither refers to
+/// them, as spans and views do, whose `data()` of a constant is that of a variable, nor may lack one, as std::optional
+/// may. Specialize as true for others.
 template <class V>
-inline constexpr bool is_vector_of_floats = requires {
+inline constexpr bool is_vector_of_floats = requires(V& variable, const V& constant) {
     requires std::is_same_v<typename V::value_type, float>;
+    requires !requires {
+        requires std::is_same_v<decltype(variable.data()), decltype(constant.data())>;
+    };
+    requires !requires {
+        *constant;
+    };
 };
 /// A float counts as a vector of one.
 template <>

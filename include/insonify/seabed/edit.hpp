@@ -37,7 +37,7 @@ struct smooth {
 /// A straight slope between two points, like a slipway.
 struct ramp {
     glm::dvec2 from{0.0, 0.0}, to{1.0, 0.0};
-    float width = 1;                          ///< metres, > 0: with its edges, a quarter of it each
+    float width = 1;                          ///< metres, > 0: with its edges, an eighth of it each
     float from_height = 0, to_height = 0.5f;  ///< metres above the datum
 };
 
@@ -148,7 +148,7 @@ inline float height_after(const ramp& e, const glm::dvec2& p, float height) {
     const double square = way.x * way.x + way.y * way.y, span = numeric::square_root(square);
     const double t = (way.x * off.x + way.y * off.y) / square;
     const double side = (way.x * off.y - way.y * off.x) / span;
-    // Beyond its ends the ramp is level, and fades as at its sides.
+    // Beyond its ends the ramp is level and fades within a quarter of its width.
     const double past = (t < 0 ? -t : t > 1 ? t - 1 : 0.0) * span;
     const float weight = plateau(static_cast<float>(2 * numeric::abs(side)) / e.width) *
                          fade(saturate(1 - 4 * static_cast<float>(past) / e.width));

@@ -5,6 +5,7 @@
 #include <insonify/io/netpbm.hpp>
 #include <insonify/shadow/map.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -64,13 +65,7 @@ options parse(int argc, char** argv) {
     app.add_option("--sizes", o.sizes, "S,M,L: 256, 512, 1024 cells and 512, 1024, 2048 pixels a side (all)")
         ->delimiter(',')
         ->check(CLI::IsMember({"S", "M", "L"}));
-    app.add_option(
-           "--only", o.only,
-           "Of "
-           "insonify,insonify_no_grid,insonify_shuffled,insonify_no_shadows,insonify_map,insonify_native,insonify_"
-           "scalar,"
-           "embree_mesh_kept,embree_mesh_rebuilt,embree_grid_kept,embree_grid_rebuilt,llvmpipe; embree is all of its "
-           "four (all)")
+    app.add_option("--only", o.only, "Of " + CLI::detail::join(every_renderer) + "; embree is all of its four (all)")
         ->delimiter(',');
     app.add_option("--threads", o.threads, "Threads of each renderer (2)")->check(CLI::Range(1, 256));
     app.add_option("--frames", o.frames, "Measured frames, after two to warm up (9)")->check(CLI::Range(1, 10000));

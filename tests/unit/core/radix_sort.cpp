@@ -14,7 +14,8 @@ using in::detail::keyed;
 TEST_CASE("radix_sort() orders by key and keeps the order of equal ones, as a stable sort does") {
     // Sizes around 64, below which insertion sort is used; few distinct keys, keys of few digits that vary, all bits.
     const std::uint32_t size = GENERATE(0u, 1u, 2u, 63u, 64u, 65u, 5000u);
-    const std::uint64_t mask = GENERATE(0x3u, 0xFFFF00000000u, 0x700000000007u, ~std::uint64_t{0});
+    // Values of GENERATE have the type of the first one.
+    const std::uint64_t mask = GENERATE(std::uint64_t{0x3}, 0xFFFF00000000u, 0x700000000007u, ~std::uint64_t{0});
     INFO(size << " items, keys within " << mask);
     in::random_sequence random(1, size, mask);
     in::detail::dynamic_array<keyed> items;

@@ -31,7 +31,7 @@ wide_float value(const double_double& v) {
 struct any_integer {
     in::random_sequence random{1};
     std::int64_t operator()() {
-        const std::uint64_t high = random.below(0xFFFFFFFFu), bits = high << 32 | random.below(0xFFFFFFFFu);
+        const std::uint64_t high = random.word(), bits = high << 32 | random.word();
         const auto shifted = static_cast<std::int64_t>(bits) >> (1 + random.below(63));
         return random.below(50) == 0 ? (shifted < 0 ? -(std::int64_t{1} << 62) : std::int64_t{1} << 62) : shifted;
     }
@@ -50,6 +50,8 @@ TEST_CASE("128-bit integers equal the compiler's __int128") {
         constexpr wide top = (std::numeric_limits<std::int64_t>::max)(),
                        bottom = (std::numeric_limits<std::int64_t>::min)();
         const bool same = value(got) == expected && value(-got) == -expected && value(int128::from(a)) == a &&
+                          value(int128::product(a, (std::numeric_limits<std::int64_t>::min)())) == a * bottom &&
+                          value(int128::product((std::numeric_limits<std::int64_t>::max)(), -a)) == -a * top &&
                           got.sign() == (expected > 0) - (expected < 0) &&
                           got.shifted_down(bits) == (shifted > top      ? top
                                                      : shifted < bottom ? bottom

@@ -298,6 +298,11 @@ TEST_CASE("Topology distinguishes open, tangled and closed surfaces") {
         m.triangles.push_back({0, 4, 1});
         CHECK(in::inspect(m).degenerate == 1);
         CHECK(in::inspect(m).closed());
+        m.positions.push_back({not_a_number, 0, 0});
+        m.positions.push_back({1e30f, 2e29f, 3e29f});
+        m.triangles.insert(m.triangles.end(), {{0, 4, 5}, {1, 6, 1}, {6, 1, 1}});
+        CHECK(in::inspect(m).degenerate == 4);
+        CHECK(in::inspect(m).solid());
         CHECK(in::weld({{not_a_number, 0, 0}, {not_a_number, 0, 0}, {-0.0f, 1, 2}, {0.0f, 1, 2}}) ==
               std::vector<std::uint32_t>{0, 1, 2, 2});
     }

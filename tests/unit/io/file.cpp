@@ -121,6 +121,19 @@ TEST_CASE("Pipes and folders are not replaced by files") {
     CHECK(folder.names() == std::set<std::string>{"pipe"});
 }
 
+TEST_CASE("A symbolic or hard link is replaced by the new file, and the file that it names stays") {
+    const scratch_folder folder;
+    in::write_file(folder / "old", "old");
+    fs::create_symlink("old", folder.path / "symbolic");
+    fs::create_hard_link(folder.path / "old", folder.path / "hard");
+    for (const char* name : {"symbolic", "hard"}) {
+        in::write_file(folder / name, "new");
+        CHECK(fs::symlink_status(folder.path / name).type() == fs::file_type::regular);
+        CHECK(in::read_file(folder / name) == "new");
+        CHECK(in::read_file(folder / "old") == "old");
+    }
+}
+
 TEST_CASE("A full disk loses the new file, not the old one") {
     const scratch_folder folder;
     const std::string path = folder / "image.pgm";

@@ -126,11 +126,16 @@ TEST_CASE("Fragments of a folded polygon show the side that culling goes by") {
     const glm::vec4 clip[] = {{0.852287352f, 0.104839139f, 1.15889204f, 0.92725271f},
                               {-0.300366759f, 0.33705771f, -0.33109355f, 0.821128845f},
                               {-0.748941541f, 0.749838054f, 1.50292158f, 1.76830506f}};
-    in::image<float> depth(32, 32, in::empty_depth(in::keep_depth::smaller));
-    in::image<int> front(32, 32, -1);
-    in::draw(
-        m, [&](const in::vertex& v) { return clip[v.index]; }, [](const auto& f) { return f.front ? 1 : 0; },
-        in::framebuffer<int>{front, depth}, {.cull = in::cull_mode::front, .subpixel_bits = 4});
-    CHECK(std::count(front.pixels().begin(), front.pixels().end(), 1) == 0);
-    CHECK(std::count(front.pixels().begin(), front.pixels().end(), 0) > 0);
+    for (const bool is_mirrored : {false, true}) {
+        in::image<float> depth(32, 32, in::empty_depth(in::keep_depth::smaller));
+        in::image<int> front(32, 32, -1);
+        const auto place = [&](const in::vertex& v) {
+            const glm::vec4 p = clip[v.index];
+            return is_mirrored ? glm::vec4(-p.x, p.y, p.z, p.w) : p;
+        };
+        in::draw(m, place, [](const auto& f) { return f.front ? 1 : 0; }, in::framebuffer<int>{front, depth},
+                 {.cull = is_mirrored ? in::cull_mode::back : in::cull_mode::front, .subpixel_bits = 4});
+        CHECK(std::count(front.pixels().begin(), front.pixels().end(), is_mirrored ? 0 : 1) == 0);
+        CHECK(std::count(front.pixels().begin(), front.pixels().end(), is_mirrored ? 1 : 0) > 0);
+    }
 }

@@ -2,6 +2,11 @@
 #include <insonify/core/image.hpp>
 #include <insonify/raster/draw.hpp>
 
+#include <array>
+#include <complex>
+#include <optional>
+#include <span>
+
 #include <glm/mat3x3.hpp>
 
 #include "../../catch.hpp"
@@ -35,6 +40,21 @@ struct tail {
     glm::vec2 texture;
     std::uint32_t ids[2];
 };
+/// As fixed vectors of linear algebra libraries are.
+class own_storage {
+  public:
+    using value_type = float;
+    own_storage() {}
+    float* data() { return values_; }
+    const float* data() const { return values_; }
+
+  private:
+    float values_[3] = {};
+};
+struct textured {
+    glm::vec2 at;
+    in::image_view<const float> texture;
+};
 struct rgba {
     std::uint8_t r, g, b, a;
 };
@@ -49,6 +69,11 @@ static_assert(in::interpolatable<nothing> && in::interpolatable<in::no_varyings>
 static_assert(in::interpolatable<glm::vec4> && !in::interpolatable<glm::ivec2> && !in::interpolatable<glm::dvec2>);
 static_assert(!in::interpolatable<int> && !in::interpolatable<double> && !in::interpolatable<const float*>);
 static_assert(!in::interpolatable<counters> && !in::interpolatable<half> && !in::interpolatable<hidden>);
+static_assert(in::interpolatable<own_storage>);
+static_assert(in::interpolatable<std::array<float, 3>> && in::interpolatable<std::complex<float>>);
+static_assert(!in::interpolatable<std::span<float>> && !in::interpolatable<std::span<const float>> &&
+              !in::interpolatable<in::image_view<float>>);
+static_assert(!in::interpolatable<std::optional<float>> && !in::interpolatable<textured>);
 static_assert(!in::interpolatable<tail> && !in::interpolatable<rgba> && !in::interpolatable<own_vector>);
 
 }  // namespace

@@ -55,6 +55,11 @@ TEST_CASE("The range of a detailed survey bounds its vertices, the interpolation
         for (int j = 0; j < 40; ++j) survey.heights(i, j) = (i + j) % 3 == 0 ? 1.0f : 0.0f;
     check(survey, 2);
     check(sb::detailed{.field = survey}, 3);
+
+    // Squares of two by two vertices: the largest overshoot, in the middle of a square.
+    for (int i = 0; i < 40; ++i)
+        for (int j = 0; j < 40; ++j) survey.heights(i, j) = (i / 2 + j / 2) % 2 == 0 ? 1.0f : 0.0f;
+    check(sb::detailed{.field = survey, .surface = {.rms = 0}}, 1.01);
 }
 
 TEST_CASE("seabed::none has an empty range of heights") {

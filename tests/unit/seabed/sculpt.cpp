@@ -1,4 +1,5 @@
 // Sculpting: each edit on a plane, composition in order, and no change outside of an edit.
+#include <insonify/core/random.hpp>
 #include <insonify/seabed/models.hpp>
 #include <insonify/seabed/sample.hpp>
 
@@ -48,12 +49,17 @@ TEST_CASE("Flattened ground is level but for its edge") {
     CHECK(sb::at(bed, 5, 0).height == sb::at(sb::ripples{}, 5, 0).height);
 }
 
-TEST_CASE("Ramps rise linearly from one end to the other") {
+TEST_CASE("Ramps rise linearly from one end to the other, and fade at their sides and beyond their ends") {
     const std::vector<sb::edit> edits{sb::ramp{{1, 1}, {5, 4}, 2, 0.1f, 1.1f}};
     for (const double t : {0.0, 0.25, 0.5, 1.0})
         CHECK(height(edits, 1 + 4 * t, 1 + 3 * t) == Approx(0.1 + t).margin(1e-6));
-    CHECK(height(edits, 3 - 0.6 * 0.7, 2.5 + 0.8 * 0.7) == Approx(0.6).margin(1e-6));  // 0.7 m beside the middle
-    CHECK(height(edits, 3 - 0.6 * 1.1, 2.5 + 0.8 * 1.1) == 0);
+    CHECK(height(edits, 3 - 0.6 * 0.7, 2.5 + 0.8 * 0.7) == Approx(0.6).margin(1e-6));      // 0.7 m beside the middle
+    CHECK(height(edits, 3 - 0.6 * 0.875, 2.5 + 0.8 * 0.875) == Approx(0.3).margin(1e-6));  // the middle of an edge
+    CHECK(height(edits, 3 - 0.6 * 1.01, 2.5 + 0.8 * 1.01) == 0);
+    CHECK(height(edits, 5 + 0.8 * 0.25, 4 + 0.6 * 0.25) == Approx(0.55).margin(1e-6));
+    CHECK(height(edits, 5 + 0.8 * 0.51, 4 + 0.6 * 0.51) == 0);
+    CHECK(height(edits, 1 - 0.8 * 0.25, 1 - 0.6 * 0.25) == Approx(0.05).margin(1e-6));
+    CHECK(height(edits, 1 - 0.8 * 0.51, 1 - 0.6 * 0.51) == 0);
 }
 
 TEST_CASE("Furrows follow a path; marks come at equal steps along it, around corners too") {
@@ -65,6 +71,8 @@ TEST_CASE("Furrows follow a path; marks come at equal steps along it, around cor
     const std::vector<sb::edit> marks{sb::stamp{path, 0.5f, -0.2f, 2}};
     for (const glm::dvec2 at : {glm::dvec2{0, 0}, {2, 0}, {3, 1}, {3, 3}}) CHECK(height(marks, at.x, at.y) == -0.2f);
     for (const glm::dvec2 at : {glm::dvec2{1, 0}, {3, 0}, {3, 2}, {3, 4}}) CHECK(height(marks, at.x, at.y) == 0);
+    // No mark lies on the extension of a leg, here at (3, -1).
+    CHECK(height({sb::stamp{path, 1, -0.2f, 2}}, 3, -0.4) == 0);
 }
 
 TEST_CASE("A moat follows its outline, deepest where the current arrives, and heaps a mound down-current") {
@@ -117,6 +125,33 @@ TEST_CASE("A heap is level on top, slopes down its sides, and leaves higher grou
     CHECK(height({heap}, 1.4, 0) == Approx(0.1));
     CHECK(height({heap}, 1.7, 0) == 0);
     CHECK(height({sb::raise{{0, 0}, 1, 0.5f}, heap}, 0, 0) == 0.5f);
+    const sb::heap high{{0, 0}, 1, 150, 0.5f};  // its sides reach down by 100 m
+    CHECK(height({high}, 200, 0) == Approx(50.5));
+    CHECK(height({high}, 202, 0) == 0);
+}
+
+TEST_CASE("An edit changes all of the ground that its shape reaches") {
+    const auto check = [](const auto& e) {
+        in::random_sequence random(1);
+        int differing = 0, changed = 0;
+        for (int n = 0; n < 2000; ++n) {
+            const double x = random.uniform(-5, 9), y = random.uniform(-5, 9);
+            const float expected = sb::detail::height_after(e, {x, y}, 0.0f);
+            differing += height({e}, x, y) != expected;
+            changed += expected != 0;
+        }
+        INFO("edit " << sb::edit(e).index());
+        CHECK(differing == 0);
+        CHECK(changed > 50);
+    };
+    check(sb::raise{{2, 2}, 3, 0.5f});
+    check(sb::flatten{{2, 2}, 3, 0.5f});
+    check(sb::ramp{{0, 2}, {4, 2}, 4, 0.3f, 0.8f});
+    check(sb::stamp{{{0, 2}, {4, 2}}, 2, -0.2f});
+    check(sb::stamp{{{0, 2}, {4, 2}}, 1, -0.2f, 1.5f});
+    check(sb::heap{{2, 2}, 1, 1, 0.5f});
+    check(sb::moat{
+        .outline = {{0, 1}, {3, 1}, {3, 3}}, .depth = 0.4f, .width = 2, .current = 0, .mound = 0.2f, .tail = 2});
 }
 
 TEST_CASE("Smoothing removes short relief and keeps slopes") {

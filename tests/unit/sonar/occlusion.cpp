@@ -101,17 +101,35 @@ TEST_CASE("A wall of seabed outside of the bounds shades points within height / 
     CHECK(blind.test(std::vector<glm::dvec3>{{-0.5, 0.3, 1e-3}}).lit[0] == 1);
 }
 
+TEST_CASE("A wall of seabed outside of the bounds shades points of a near light, by similar triangles") {
+    in::scene s;
+    s.seabed = wall();
+    const auto label = [&](double height, double x) {
+        const auto shade =
+            in::occlusion_of(s, in::shadow::point_light{{-12, 0.3, height}}, {{{-1, -1, 0}, {1, 1, 0.5}}, 0.1});
+        return shade.test(std::vector<glm::dvec3>{{x, 0.3, 1e-3}}).shadow[0];
+    };
+    // From 1.2 m, 2 m before the wall, to 10 m behind it; from below its top, to the end of the ground.
+    CHECK(label(1.2, -0.5) == in::labels::by_seabed);
+    CHECK(label(1.2, 0.5) == in::labels::is_lit);
+    CHECK(label(0.9, 0.5) == in::labels::by_seabed);
+}
+
 TEST_CASE("A wide light is partly shaded by seabed beyond the reach of its centre's rays") {
     in::scene s;
     s.seabed = wall();
-    // 16 m behind the wall, a ray below 3.576 degrees meets it: 0.0374 rad below the centre of a disc of radius 0.05.
-    const auto shade =
-        in::occlusion_of(s, in::shadow::directional_light{0, std::atan(0.1)}, {{{5.8, -1, 0}, {7, 1, 0.5}}, 0.1, 20},
-                         in::shadow::penumbra{.diameter = 0.1f, .samples = 400});
-    const double depth = (std::atan(0.1) - std::atan(1.0 / 16)) / 0.05;
-    const double segment = (std::acos(depth) - depth * std::sqrt(1 - depth * depth)) / in::numeric::pi;
-    CHECK(static_cast<double>(shade.test(std::vector<glm::dvec3>{{6, 0.3, 0}}).lit[0]) ==
-          Approx(1 - segment).margin(0.01));
+    // 16 m behind the wall, rays below atan(1 / 16) meet it. The centre of the disc is above that; or below, and its
+    // lowest part below the horizon.
+    for (const double elevation : {std::atan(0.1), 0.02}) {
+        const auto shade =
+            in::occlusion_of(s, in::shadow::directional_light{0, elevation}, {{{5.8, -1, 0}, {7, 1, 0.5}}, 0.1, 20},
+                             in::shadow::penumbra{.diameter = 0.1f, .samples = 400});
+        const double depth = (elevation - std::atan(1.0 / 16)) / 0.05;
+        const double segment = (std::acos(depth) - depth * std::sqrt(1 - depth * depth)) / in::numeric::pi;
+        CAPTURE(elevation);
+        CHECK(static_cast<double>(shade.test(std::vector<glm::dvec3>{{6, 0.3, 0}}).lit[0]) ==
+              Approx(1 - segment).margin(0.01));
+    }
 }
 
 TEST_CASE("A wide light is partly shaded by seabed beside the bounds") {

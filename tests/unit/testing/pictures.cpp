@@ -4,12 +4,15 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <sstream>
 
 #include "../../catch.hpp"
 
 namespace in = insonify;
+using namespace std::string_literals;
+using std::filesystem::exists;
 
 namespace {
 
@@ -18,12 +21,6 @@ in::image<float> slope(int width, int height) {
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) picture(x, y) = 0.125f * static_cast<float>(x + y);
     return picture;
-}
-
-bool exists(const std::string& path) {
-    std::FILE* const file = std::fopen(path.c_str(), "rb");
-    if (file != nullptr) std::fclose(file);
-    return file != nullptr;
 }
 
 void remove_all(const std::string& stem) {
@@ -105,14 +102,14 @@ TEST_CASE("Sizes must agree, and tolerances be in range") {
 }
 
 TEST_CASE("A difference picture is gray where pixels agree, red where they are brighter, blue where darker") {
-    in::image<float> found = slope(3, 1);
+    in::image<float> found = slope(4, 1);
     found(0, 0) += 1;
     found(1, 0) -= 0.1f;
-    const auto picture = in::difference_picture(found, slope(3, 1));
+    const auto picture = in::difference_picture(found, slope(4, 1));
     CHECK(picture(0, 0) == in::rgb8{255, 0, 0});
-    CHECK(picture(1, 0).b > 80);
-    CHECK(picture(1, 0).r == 0);
-    CHECK(picture(2, 0) == in::rgb8{85, 85, 85});
+    CHECK(picture(1, 0) == in::rgb8{0, 0, 97});
+    CHECK(picture(2, 0) == in::rgb8{56, 56, 56});
+    CHECK(picture(3, 0) == in::rgb8{85, 85, 85});
 }
 
 TEST_CASE("Golden pictures are written on demand, then compared; a failure leaves the picture and its difference") {
@@ -139,6 +136,16 @@ TEST_CASE("Golden pictures are written on demand, then compared; a failure leave
     CHECK(result.message.find("see ./golden_slope.found.pfm and ./golden_slope.difference.ppm") != std::string::npos);
     CHECK(in::read_netpbm<float>("golden_slope.found.pfm") == other);
     CHECK(in::read_netpbm<in::rgb8>("golden_slope.difference.ppm")(5, 3) == in::rgb8{0, 0, 255});
+    CHECK(in::read_netpbm<float>("golden_slope.pfm") == slope(6, 4));
+
+    for (const char* ending : {".found.pfm", ".difference.ppm"}) std::remove(("golden_slope"s + ending).c_str());
+    std::filesystem::create_directory("golden_failures");
+    golden.failures = "golden_failures";
+    CHECK_FALSE(golden.compare("golden_slope", other));
+    CHECK(exists("golden_failures/golden_slope.found.pfm"));
+    CHECK(exists("golden_failures/golden_slope.difference.ppm"));
+    CHECK_FALSE(exists("golden_slope.found.pfm"));
+    std::filesystem::remove_all("golden_failures");
     remove_all("golden_slope");
 }
 

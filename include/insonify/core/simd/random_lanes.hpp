@@ -176,7 +176,7 @@ INSONIFY_INLINE void log_uniform_lanes(lanes<float, N>& into, const lanes<std::u
     log_lanes<N>(into, k, floats(shifted >= 0 ? 0.0f - from_end : m - 1.0f));
 }
 
-/// sqrt(-2 ln u) of a uniform number: 0 to 6.66.
+/// sqrt(-2 ln u) of a uniform number: 0 to 6.76.
 template <int N>
 INSONIFY_INLINE void radius_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
     log_uniform_lanes<N>(into, word);

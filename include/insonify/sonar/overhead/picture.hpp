@@ -26,7 +26,7 @@ struct render_options {
     Law law{};
     double cell = 0;  ///< metres between the vertices at which the seabed is sampled; 0: two pixels on level ground
     /// How far towards the light the seabed may cast from, at most, in lengths of the picture. Less is sampled if its
-    /// heights throw no shadow that far; light below 1 degree over rock comes from farther.
+    /// heights throw no shadow that far; with the light below 1 degree, rock casts shadows from farther.
     float reach = 8;
     /// See draw_options. Whether a pixel faces the light follows from the triangle that it shows.
     int subpixel_bits = std::is_same_v<Shadow, shadow::none> ? 8 : 12;
@@ -130,7 +130,7 @@ frame<Labels> render(const scene& s, const overhead& rig,
 
 /// The triangles that `render` shows with the same options.
 /// @throws invalid_input as `render` does
-template <class Shadow = shadow::exact, class Labels = labels, class Law = lambert,
+template <class Shadow = shadow::exact, class Labels = labels, backscatter_law Law = lambert,
           depth_precision Depth = depth_precision::quick, executor_argument E = serial_executor>
 visibility visible_triangles(const scene& s, const overhead& rig,
                              const render_options<Shadow, Labels, Law, Depth>& options = {}, E&& ex = {}) {
