@@ -6989,7 +6989,7 @@ struct topology {
     std::size_t degenerate = 0;      ///< triangles with two coincident corners, not counted elsewhere
     std::size_t boundary_edges = 0;  ///< edges with one triangle
     std::size_t tangled_edges = 0;   ///< edges with more than two triangles, or two that traverse it the same way
-    std::size_t inward_pieces = 0;   ///< connected components whose triangles face inwards, such as cavities
+    std::size_t inward_pieces = 0;   ///< connected components that face inwards, such as cavities, or enclose nothing
 
     /// Every edge joins two triangles of the same orientation.
     bool closed() const { return triangles > 0 && boundary_edges == 0 && tangled_edges == 0; }
@@ -18124,8 +18124,8 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
 /// The bits depend on the model and the positions of the vertices alone, not on the executor or on what else is in
 /// the grid.
 /// @param source  the library's or a user's own
-/// @throws invalid_input for a grid smaller than 2 x 2, beyond 1e9 metres or with a spacing that is not above 0 and
-/// below 10^6 m, for parameters of the model out of their range, and for own labels that its legend lacks
+/// @throws invalid_input for a grid smaller than 2 x 2, an origin beyond 1e9 metres or a spacing that is not above 0
+/// and below 10^6 m, for parameters of the model out of their range, and for own labels that its legend lacks
 template <model Model, executor_argument Executor = serial_executor>
 heightfield sample(const Model& source, const grid& where, Executor&& ex = serial_executor{}) {
     constexpr insonify::detail::uninitialized uninitialized;
@@ -24151,7 +24151,8 @@ class map_occlusion {
     static light_frame parallel(const any_light& light) {
         if (const auto* from_nearby = std::get_if<point_light>(&light)) {
             const glm::dvec3& p = from_nearby->position;
-            insonify::detail::refuse("overhead.light_distance", numeric::square_root(numeric::dot(p, p)),
+            insonify::detail::refuse("the distance of the light (overhead.light_distance)",
+                                     numeric::square_root(numeric::dot(p, p)),
                                      "infinite for shadow maps; shadow::exact and shadow::penumbra take a point_light");
         }
         return light_frame(std::get<directional_light>(light));

@@ -29,7 +29,7 @@ struct topology {
     std::size_t degenerate = 0;      ///< triangles with two coincident corners, not counted elsewhere
     std::size_t boundary_edges = 0;  ///< edges with one triangle
     std::size_t tangled_edges = 0;   ///< edges with more than two triangles, or two that traverse it the same way
-    std::size_t inward_pieces = 0;   ///< connected components whose triangles face inwards, such as cavities
+    std::size_t inward_pieces = 0;   ///< connected components that face inwards, such as cavities, or enclose nothing
 
     /// Every edge joins two triangles of the same orientation.
     bool closed() const { return triangles > 0 && boundary_edges == 0 && tangled_edges == 0; }

@@ -214,6 +214,7 @@ TEST_CASE("Parameters out of range are refused by name, and so are point lights 
     CHECK_THROWS_WITH(build(shadow::penumbra{.diameter = 2}, light), ContainsSubstring("diameter is 2"));
     CHECK_THROWS_WITH(build(shadow::penumbra{.samples = 0}, light), ContainsSubstring("samples is 0"));
     const shadow::any_light lamp = shadow::point_light{{0, 0, 3}};
-    CHECK_THROWS_WITH(build(shadow::map{}, lamp), ContainsSubstring("overhead.light_distance is 3, expected infinite"));
+    CHECK_THROWS_WITH(build(shadow::map{}, lamp),
+                      ContainsSubstring("the distance of the light (overhead.light_distance) is 3, expected infinite"));
     CHECK_THROWS_WITH(build(shadow::pcf{}, lamp), ContainsSubstring("shadow::penumbra"));
 }

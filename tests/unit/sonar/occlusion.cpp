@@ -217,7 +217,7 @@ TEST_CASE("Any shadow policy can test points; bounds out of range are refused") 
     CHECK_THROWS_WITH(in::occlusion_of(on_sand, light, {{{-9, -9, -1}, {9, 9, 3}}, 1e-5}),
                       ContainsSubstring("enlarge `occlusion_bounds.cell`"));
     CHECK_THROWS_WITH(in::occlusion_of(s, in::shadow::point_light{{0, 0, 5}}, within, in::shadow::pcf{}),
-                      ContainsSubstring("overhead.light_distance is 5"));
+                      ContainsSubstring("overhead.light_distance) is 5"));
     in::scene crowded;
     crowded.targets.assign(65535, s.targets[0]);
     CHECK_THROWS_WITH(in::occlusion_of(crowded, light, within), ContainsSubstring("scene.targets.size() is 65535"));
