@@ -152,6 +152,8 @@ TEST_CASE("An edit changes all of the ground that its shape reaches") {
     check(sb::heap{{2, 2}, 1, 1, 0.5f});
     check(sb::moat{
         .outline = {{0, 1}, {3, 1}, {3, 3}}, .depth = 0.4f, .width = 2, .current = 0, .mound = 0.2f, .tail = 2});
+    check(sb::moat{
+        .outline = {{0, 2}, {1, 2}, {1, 3}}, .depth = 0.4f, .width = 0.5f, .current = 0, .mound = 0.2f, .tail = 7.5f});
 }
 
 TEST_CASE("Smoothing removes short relief and keeps slopes") {
