@@ -268,6 +268,12 @@ TEST_CASE("A tone has the given level, lengths and fraction of patches") {
         CHECK(of(drift).deviation == Approx(3).epsilon(0.05));
         CHECK(of(drift).mean == Approx(0).margin(0.15));
     }
+    // Drift changes over its length in every direction.
+    for (const glm::dvec2& step : {glm::dvec2(1, 0), glm::dvec2(0, 1)}) {
+        const auto drift = line({.drift = 3, .drift_length = 4, .octaves = 1}, step);
+        CHECK(correlation(drift, 2) == Approx(lattice_correlation(0.5)).margin(0.05));
+        CHECK(correlation(drift, 8) == Approx(0).margin(0.05));
+    }
     // Across streaks the tone changes over their width, along them over their length.
     const in::bottom_tone streaks{.streaks = 2, .streak_width = 2, .streak_length = 50, .direction = 0};
     CHECK(of(line(streaks, {13, 5})).deviation == Approx(2).epsilon(0.05));

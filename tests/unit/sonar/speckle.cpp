@@ -98,6 +98,21 @@ TEST_CASE("Correlation falls to 1 / e at the given lengths, independently along 
     }
 }
 
+TEST_CASE("The speckle of a bin does not depend on the number of bins") {
+    const float across = GENERATE(0.0f, 0.8f, 3.0f);
+    const auto pings = [&](int bins) {
+        return in::detail::speckle_field(3, in::side::starboard, 1.5f, across, bins).pings(7, 3, 0);
+    };
+    const in::image<float> widest = pings(80);
+    int differing = 0;
+    for (int bins = 1; bins < 80; ++bins) {
+        const in::image<float> field = pings(bins);
+        for (int y = 0; y < field.height(); ++y)
+            for (int x = 0; x < field.width(); ++x) differing += field(x, y) != widest(x, y);
+    }
+    CHECK(differing == 0);
+}
+
 TEST_CASE("Textures are correlated over their length and gamma-distributed") {
     in::seabed_speckle s{.along_track = 0, .across_track = 0, .texture_length = 8};
     s.bottom[0] = {64, 1, 0};  // many looks: the texture dominates
