@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -45,6 +46,36 @@ extent where(int width, Fn&& holds) {
 }
 
 }  // namespace
+
+TEST_CASE(
+    "A pixel of level ground is the sum of its direct light, sky and ambient light, under near and parallel lights") {
+    const float distance = GENERATE(5.0f, 1000.0f, std::numeric_limits<float>::infinity());
+    const in::overhead rig{.altitude = 3,
+                           .field_of_view = 90_deg,
+                           .size = {203, 121},
+                           .grazing = 40_deg,
+                           .light_azimuth = 30_deg,
+                           .light_distance = distance,
+                           .intensity = 0.9f,
+                           .sky = 0.1f,
+                           .ambient = 0.07f};
+    in::scene s;
+    s.seabed = plane;
+    const in::image<float> picture = in::render(s, rig, in::render_options<in::shadow::none>{}).image;
+    const double metres = 2 * 3.0 / 203, grazing = static_cast<double>(rig.grazing);
+    const double azimuth = static_cast<double>(rig.light_azimuth), cosine = std::cos(grazing);
+    const glm::dvec3 to_light(-cosine * std::cos(azimuth), -cosine * std::sin(azimuth), std::sin(grazing));
+    double largest = 0;
+    for (int y = 0; y < 121; ++y)
+        for (int x = 0; x < 203; ++x) {
+            const glm::dvec3 ground((x + 0.5 - 203 / 2.0) * metres, (121 / 2.0 - y - 0.5) * metres, 0);
+            const double sine =
+                std::isinf(distance) ? to_light.z : glm::normalize(static_cast<double>(distance) * to_light - ground).z;
+            const double expected = 0.45 * (0.9 * sine + 0.1 + 0.07);
+            largest = std::max(largest, std::abs(static_cast<double>(picture(x, y)) - expected));
+        }
+    CHECK(largest < 1e-6);
+}
 
 TEST_CASE("A cube's shadow is as long as its height over the tangent of the grazing angle, within a pixel") {
     for (const float degrees : {4.0f, 6.0f, 12.0f, 30.0f, 60.0f}) {
