@@ -11331,7 +11331,8 @@ void validate(const side_scan_rig<Axis>& rig) {
     require(numeric::is_finite(rig.ping_spacing) && rig.ping_spacing > 0, ".ping_spacing", rig.ping_spacing,
             "finite and positive");
     require(rig.pings >= 1 && rig.pings <= 1 << 20, ".pings", rig.pings, "1 to 2^20");
-    require(rig.first_range >= 0 && numeric::is_finite(rig.first_range), ".first_range", rig.first_range, "0 or more");
+    require(rig.first_range >= 0 && numeric::is_finite(rig.first_range), ".first_range", rig.first_range,
+            "0 or more, finite");
     require(rig.range > rig.first_range && rig.range <= 1e5f, ".range", rig.range,
             "above first_range and at most 10^5 metres");
     require(rig.bins >= 1 && rig.bins <= 1 << 20, ".bins", rig.bins, "1 to 2^20");
@@ -20151,9 +20152,8 @@ inline namespace INSONIFY_FLAGS {
 /// own, commonly y up: turn such a model upright by `pose{.roll = 90_deg}`.
 ///
 /// @param name    what error messages call the text
-/// @param origin  metres, within 1e9 each: subtracted from every position before it is rounded to float, whose steps
-/// are
-///                half a metre at 5000 km; for meshes in map coordinates
+/// @param origin  metres, within 1e9 each: subtracted from every position before it is rounded to float. For meshes in
+///                map coordinates: steps of a float are half a metre at 5000 km
 /// @throws invalid_input if `origin` is out of range
 /// @throws io_error with the name and line number for: a coordinate that is missing, no number, or out of range; an
 ///         index that is 0, no integer, or refers to a line not yet given; a face with fewer than 3 corners; a text

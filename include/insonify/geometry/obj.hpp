@@ -287,9 +287,8 @@ inline namespace INSONIFY_FLAGS {
 /// own, commonly y up: turn such a model upright by `pose{.roll = 90_deg}`.
 ///
 /// @param name    what error messages call the text
-/// @param origin  metres, within 1e9 each: subtracted from every position before it is rounded to float, whose steps
-/// are
-///                half a metre at 5000 km; for meshes in map coordinates
+/// @param origin  metres, within 1e9 each: subtracted from every position before it is rounded to float. For meshes in
+///                map coordinates: steps of a float are half a metre at 5000 km
 /// @throws invalid_input if `origin` is out of range
 /// @throws io_error with the name and line number for: a coordinate that is missing, no number, or out of range; an
 ///         index that is 0, no integer, or refers to a line not yet given; a face with fewer than 3 corners; a text

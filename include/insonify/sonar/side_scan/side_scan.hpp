@@ -94,7 +94,8 @@ void validate(const side_scan_rig<Axis>& rig) {
     require(numeric::is_finite(rig.ping_spacing) && rig.ping_spacing > 0, ".ping_spacing", rig.ping_spacing,
             "finite and positive");
     require(rig.pings >= 1 && rig.pings <= 1 << 20, ".pings", rig.pings, "1 to 2^20");
-    require(rig.first_range >= 0 && numeric::is_finite(rig.first_range), ".first_range", rig.first_range, "0 or more");
+    require(rig.first_range >= 0 && numeric::is_finite(rig.first_range), ".first_range", rig.first_range,
+            "0 or more, finite");
     require(rig.range > rig.first_range && rig.range <= 1e5f, ".range", rig.range,
             "above first_range and at most 10^5 metres");
     require(rig.bins >= 1 && rig.bins <= 1 << 20, ".bins", rig.bins, "1 to 2^20");
