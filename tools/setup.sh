@@ -15,6 +15,7 @@ requirements='
 g++           command:g++                             g++                   gcc-c++             gcc
 cmake         command:cmake                           cmake                 cmake               cmake
 ninja         command:ninja|make                      ninja-build           ninja-build         ninja
+make          command:make                            make                  make                make
 python        command:python3                         python3               python3             python
 glm           header:glm/vec3.hpp                     libglm-dev            glm-devel           glm
 catch2        header:catch2/catch_all.hpp|catch2/catch.hpp  catch2          catch-devel         catch2
