@@ -40,7 +40,7 @@ fuzzer        clang:-fsanitize=fuzzer                 libclang-rt-dev       comp
 egl           header:EGL/egl.h                        libegl-dev            mesa-libEGL-devel   mesa
 gles          header:GLES3/gl3.h                      libgles-dev           mesa-libGLES-devel  mesa
 llvmpipe      library:dri/swrast_dri.so               libgl1-mesa-dri       mesa-dri-drivers    mesa
-embree        header:embree3/rtcore.h                 libembree-dev         embree3-devel       embree@3
+embree        header:embree4/rtcore.h|embree3/rtcore.h  libembree-dev     embree-devel        embree
 libcxx        library:llvm-*/lib/libc++.so            libc++-dev            libcxx-devel        -
 libcxxabi     library:llvm-*/lib/libc++abi.so         libc++abi-dev         libcxxabi-devel     -
 i386          command:i686-linux-gnu-g++              g++-i686-linux-gnu    -                   -

@@ -22331,7 +22331,7 @@ class csv_table {
     void add(const Cells&... cells) {
         detail::require_equal("number of cells in a row", sizeof...(cells), columns_, "one for each column");
         std::string line;  // whole before it is added, should memory run out
-        std::size_t index = 0;
+        [[maybe_unused]] std::size_t index = 0;  // of a row without cells
         (append(line, cells, index++), ...);
         line += "\r\n";
         text_ += line;
@@ -25316,8 +25316,7 @@ class bottom_profile {
         const double tolerance = 1e-4 * step_;
         double last_error = std::numeric_limits<double>::infinity();
         while (true) {
-            // In this order, NaN becomes the shallowest depth.
-            down = (std::min)((std::max)(depths.shallowest, down), depths.deepest);
+            down = (std::max)(depths.shallowest, down);  // in this order, NaN becomes the shallowest depth
             const cut found = seabed_at(p, x, down);
             const double error = numeric::abs(found.down - down);
             if (error <= tolerance) return found;

@@ -2,13 +2,14 @@
 //
 // Embree's coordinates and ray origins are floats, so pixels may differ where a ray passes an edge within float
 // rounding.
+#include "../embree.hpp"
+
 #include <cmath>
 #include <iterator>
 #include <limits>
 
 #include "../catch.hpp"
 #include "../shadow_scenes.hpp"
-#include <embree3/rtcore.h>
 
 namespace in = insonify;
 namespace scenes = shadow_scenes;
@@ -19,7 +20,7 @@ class embree_scene {
   public:
     explicit embree_scene(const std::vector<scenes::triangle>& triangles)
         : triangles_(triangles), device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
-        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST | embree::filtered_by_queries);
         const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* const corners = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
             geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), 3 * triangles.size()));
@@ -46,9 +47,7 @@ class embree_scene {
 
     scenes::difference compare(const in::labels& labels, const glm::dvec3& to_light) const {
         const int pixels = labels.shadow.width();
-        self_hit_filter context;
-        rtcInitIntersectContext(&context);
-        context.filter = &self_hit_filter::skip_self_hit;
+        outward_query query;
         scenes::difference d;
         for (int y = 0; y < pixels; ++y)
             for (int x = 0; x < pixels; ++x) {
@@ -56,8 +55,8 @@ class embree_scene {
                 RTCRayHit first{};
                 first.ray = ray({0, 0, 4}, along, 0);
                 first.hit.geomID = first.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-                context.receiver_id = RTC_INVALID_GEOMETRY_ID;
-                rtcIntersect1(scene_, &context, &first);
+                query.receiver_id = RTC_INVALID_GEOMETRY_ID;
+                query.intersect(scene_, first);
                 if (first.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
                 const scenes::triangle& t = triangles_[first.hit.primID];
                 const glm::dvec3 n = glm::cross(t.b - t.a, t.c - t.a);
@@ -66,8 +65,8 @@ class embree_scene {
                     const glm::dvec3 eye(0, 0, 4);
                     const glm::dvec3 p = eye + glm::dot(n, t.a - eye) / glm::dot(n, along) * along;
                     RTCRay shadow = ray(p, to_light, 1e-6f);
-                    context.receiver_id = first.hit.primID;
-                    rtcOccluded1(scene_, &context, &shadow);
+                    query.receiver_id = first.hit.primID;
+                    query.occlude(scene_, shadow);
                     lit = shadow.tfar >= 0;
                 }
                 d.add(labels.shadow(x, y) == in::labels::is_lit, lit);
@@ -77,12 +76,14 @@ class embree_scene {
 
   private:
     /// A ray that starts on a triangle does not hit it, however origins are rounded.
-    struct self_hit_filter : RTCIntersectContext {
+    struct outward_query : embree::query {
+        outward_query() : query(false, &skip_self_hit) {}
+
         unsigned receiver_id = RTC_INVALID_GEOMETRY_ID;
 
         static void skip_self_hit(const RTCFilterFunctionNArguments* arguments) {
             if (RTCHitN_primID(arguments->hit, arguments->N, 0) ==
-                static_cast<const self_hit_filter*>(arguments->context)->receiver_id)
+                static_cast<const outward_query*>(arguments->context)->receiver_id)
                 arguments->valid[0] = 0;
         }
     };

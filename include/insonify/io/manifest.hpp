@@ -45,7 +45,7 @@ class csv_table {
     void add(const Cells&... cells) {
         detail::require_equal("number of cells in a row", sizeof...(cells), columns_, "one for each column");
         std::string line;  // whole before it is added, should memory run out
-        std::size_t index = 0;
+        [[maybe_unused]] std::size_t index = 0;  // of a row without cells
         (append(line, cells, index++), ...);
         line += "\r\n";
         text_ += line;

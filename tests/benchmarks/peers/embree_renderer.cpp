@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <embree3/rtcore.h>
+#include "../../embree.hpp"
 
 namespace peers {
 
@@ -57,8 +57,9 @@ class embree_renderer::tracer {
         const int columns = task_.pixels / tile;
         pool_.bulk(static_cast<std::size_t>(columns) * static_cast<std::size_t>(columns), [&](std::size_t i) {
             const int x0 = static_cast<int>(i) % columns * tile, y0 = static_cast<int>(i) / columns * tile;
+            embree::query query(true);
             for (int y = y0; y < y0 + tile; y += block)
-                for (int x = x0; x < x0 + tile; x += block) trace(x, y, out);
+                for (int x = x0; x < x0 + tile; x += block) trace(x, y, query, out);
         });
     }
 
@@ -132,15 +133,12 @@ class embree_renderer::tracer {
                at.weights.z * s.normals[at.index.z];
     }
 
-    void trace(int x0, int y0, std::span<std::uint8_t> out) const {
+    void trace(int x0, int y0, embree::query& query, std::span<std::uint8_t> out) const {
         const auto step = static_cast<float>(2 * task_.half_width / task_.altitude / task_.pixels);
         const float middle = 0.5f * static_cast<float>(task_.pixels);
         const auto altitude = static_cast<float>(task_.altitude);
         const glm::vec3 to_light = task_.to_light;
 
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
         alignas(64) int wanted[lanes];
         RTCRayHit16 primary;
         for (int i = 0; i < lanes; ++i) {
@@ -157,7 +155,7 @@ class embree_renderer::tracer {
             primary.ray.flags[i] = primary.ray.id[i] = 0;
             primary.hit.geomID[i] = primary.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
         }
-        rtcIntersect16(wanted, scene_, &context, &primary);
+        query.intersect(scene_, wanted, primary);
 
         RTCRay16 shadow;
         float facing[lanes];
@@ -188,7 +186,7 @@ class embree_renderer::tracer {
                 shadow.mask[i] = ~0u;
                 shadow.flags[i] = shadow.id[i] = 0;
             }
-            rtcOccluded16(wanted, scene_, &context, &shadow);
+            query.occlude(scene_, wanted, shadow);
         }
         for (int i = 0; i < lanes; ++i) {
             const bool is_lit = wanted[i] != 0 && shadow.tfar[i] >= 0;  // minus infinity: a hit

@@ -1,4 +1,4 @@
-// A scene by Embree 3: a ray for each pixel and one towards the light, in packets of 16.
+// A scene by Embree: a ray for each pixel and one towards the light, in packets of 16.
 #pragma once
 
 #include <memory>

@@ -86,8 +86,7 @@ class bottom_profile {
         const double tolerance = 1e-4 * step_;
         double last_error = std::numeric_limits<double>::infinity();
         while (true) {
-            // In this order, NaN becomes the shallowest depth.
-            down = (std::min)((std::max)(depths.shallowest, down), depths.deepest);
+            down = (std::max)(depths.shallowest, down);  // in this order, NaN becomes the shallowest depth
             const cut found = seabed_at(p, x, down);
             const double error = numeric::abs(found.down - down);
             if (error <= tolerance) return found;
