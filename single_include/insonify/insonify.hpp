@@ -9132,8 +9132,8 @@ class gradient_noise {
 
         for (std::size_t i = 0; i < part.whole(); i += N) {
             using insonify::detail::lane;
-            lanes<float, N> across, weight, sum, corner[4];  // height and slope at both sides of the cell
-            lanes<std::int32_t, N> cell;
+            lanes<float, N> across{}, weight, sum, corner[4];  // height and slope at both sides of the cell
+            lanes<std::int32_t, N> cell{};
             const auto fetch = [&](const side* from) INSONIFY_INLINE_LAMBDA {
                 if constexpr (N == 1)
                     std::memcpy(corner, &from[cell].height, sizeof corner);
@@ -9697,8 +9697,8 @@ class ripple_train {
             envelope<N>(table_re.data(), table_im.data(), first, part.y, static_cast<std::size_t>(last - first) + 1);
 
         for (std::size_t i = 0; i < part.whole(); i += N) {
-            lanes<float, N> across, stencil_re[4], stencil_im[4], a, b, cosine, sine, magnitude, sum;
-            lanes<std::int32_t, N> cell;
+            lanes<float, N> across{}, stencil_re[4], stencil_im[4], a, b, cosine, sine, magnitude, sum;
+            lanes<std::int32_t, N> cell{};
             if (dense) {
                 locate<N>(across, cell, &part.x[i], frequency, 0, static_cast<double>(first));
             } else {

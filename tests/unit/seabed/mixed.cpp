@@ -84,8 +84,8 @@ TEST_CASE("Beyond its border a layer is exactly its bottom; within it the surfac
     const sb::ripples waves{.wavelength = 0.5f, .surface = smooth};
     const sb::flat plain{.surface = smooth};
     const bool under = GENERATE(false, true);
-    const sb::mixed bed = under ? sb::mixed{.base = waves, .layers = {{plain, sb::disc{{0, 0}, 4}, 1, 0}}}
-                                : sb::mixed{.base = plain, .layers = {{waves, sb::disc{{0, 0}, 4}, 1, 0}}};
+    const sb::any base = under ? sb::any(waves) : plain, layer = under ? sb::any(plain) : waves;
+    const sb::mixed bed{.base = base, .layers = {{layer, sb::disc{{0, 0}, 4}, 1, 0}}};
     const double spacing = 1.0 / 128;
     const sb::grid area{.origin = {-6, -6}, .spacing = spacing, .width = 12 * 128, .height = 400};
     const auto field = sb::sample(bed, area), rippled = sb::sample(waves, area);

@@ -49,8 +49,8 @@ class gradient_noise {
 
         for (std::size_t i = 0; i < part.whole(); i += N) {
             using insonify::detail::lane;
-            lanes<float, N> across, weight, sum, corner[4];  // height and slope at both sides of the cell
-            lanes<std::int32_t, N> cell;
+            lanes<float, N> across{}, weight, sum, corner[4];  // height and slope at both sides of the cell
+            lanes<std::int32_t, N> cell{};
             const auto fetch = [&](const side* from) INSONIFY_INLINE_LAMBDA {
                 if constexpr (N == 1)
                     std::memcpy(corner, &from[cell].height, sizeof corner);

@@ -187,8 +187,8 @@ class ripple_train {
             envelope<N>(table_re.data(), table_im.data(), first, part.y, static_cast<std::size_t>(last - first) + 1);
 
         for (std::size_t i = 0; i < part.whole(); i += N) {
-            lanes<float, N> across, stencil_re[4], stencil_im[4], a, b, cosine, sine, magnitude, sum;
-            lanes<std::int32_t, N> cell;
+            lanes<float, N> across{}, stencil_re[4], stencil_im[4], a, b, cosine, sine, magnitude, sum;
+            lanes<std::int32_t, N> cell{};
             if (dense) {
                 locate<N>(across, cell, &part.x[i], frequency, 0, static_cast<double>(first));
             } else {
