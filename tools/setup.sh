@@ -41,6 +41,7 @@ egl           header:EGL/egl.h                        libegl-dev            mesa
 gles          header:GLES3/gl3.h                      libgles-dev           mesa-libGLES-devel  mesa
 llvmpipe      library:dri/swrast_dri.so               libgl1-mesa-dri       mesa-dri-drivers    mesa
 embree        header:embree4/rtcore.h|embree3/rtcore.h  libembree-dev     embree-devel        embree
+g++-11        command:g++-11                          g++-11                -                   gcc@11
 libcxx        library:llvm-*/lib/libc++.so            libc++-dev            libcxx-devel        -
 libcxxabi     library:llvm-*/lib/libc++abi.so         libc++abi-dev         libcxxabi-devel     -
 i386          command:i686-linux-gnu-g++              g++-i686-linux-gnu    -                   -

@@ -50,7 +50,8 @@
 // Fused multiply-add rounds once where a product and a sum round twice, so contraction changes results. These two
 // macros enclose every header with floating-point arithmetic and disable contraction whatever the flags, except that
 // clang ignores the pragma under an explicit -ffp-contract=fast (not under fast-honor-pragmas). They also suppress
-// g++'s note on the ABI of wide vectors, which are passed only within always-inlined code.
+// g++'s note on the ABI of wide vectors, which are passed only within always-inlined code, and g++ 11's false warnings of
+// vectors that are filled lane by lane.
 #if defined(__clang__) && !defined(__x86_64__) && !defined(__i386__)
 // clang has float_control on x86 alone. WebAssembly has no fused instruction.
 #if defined(__wasm__)
@@ -64,9 +65,15 @@
 #define INSONIFY_ARITHMETIC_BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)")
 #define INSONIFY_ARITHMETIC_END _Pragma("float_control(pop)")
 #elif defined(__GNUC__)
-#define INSONIFY_ARITHMETIC_BEGIN \
-    INSONIFY_CONTRACTION_OFF _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wpsabi\"")
+#define INSONIFY_ARITHMETIC_BEGIN                                                                         \
+    INSONIFY_CONTRACTION_OFF _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wpsabi\"") \
+        INSONIFY_FILLED_BY_LANE
 #define INSONIFY_ARITHMETIC_END _Pragma("GCC diagnostic pop") INSONIFY_CONTRACTION_BACK
+#if __GNUC__ < 12
+#define INSONIFY_FILLED_BY_LANE _Pragma("GCC diagnostic ignored \"-Wmaybe-uninitialized\"")
+#else
+#define INSONIFY_FILLED_BY_LANE
+#endif
 #if defined(__FP_FAST_FMA)
 #define INSONIFY_CONTRACTION_OFF _Pragma("GCC push_options") _Pragma("GCC optimize(\"fp-contract=off\")")
 #define INSONIFY_CONTRACTION_BACK _Pragma("GCC pop_options")

@@ -83,7 +83,8 @@
 // Fused multiply-add rounds once where a product and a sum round twice, so contraction changes results. These two
 // macros enclose every header with floating-point arithmetic and disable contraction whatever the flags, except that
 // clang ignores the pragma under an explicit -ffp-contract=fast (not under fast-honor-pragmas). They also suppress
-// g++'s note on the ABI of wide vectors, which are passed only within always-inlined code.
+// g++'s note on the ABI of wide vectors, which are passed only within always-inlined code, and g++ 11's false warnings of
+// vectors that are filled lane by lane.
 #if defined(__clang__) && !defined(__x86_64__) && !defined(__i386__)
 // clang has float_control on x86 alone. WebAssembly has no fused instruction.
 #if defined(__wasm__)
@@ -97,9 +98,15 @@
 #define INSONIFY_ARITHMETIC_BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)")
 #define INSONIFY_ARITHMETIC_END _Pragma("float_control(pop)")
 #elif defined(__GNUC__)
-#define INSONIFY_ARITHMETIC_BEGIN \
-    INSONIFY_CONTRACTION_OFF _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wpsabi\"")
+#define INSONIFY_ARITHMETIC_BEGIN                                                                         \
+    INSONIFY_CONTRACTION_OFF _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wpsabi\"") \
+        INSONIFY_FILLED_BY_LANE
 #define INSONIFY_ARITHMETIC_END _Pragma("GCC diagnostic pop") INSONIFY_CONTRACTION_BACK
+#if __GNUC__ < 12
+#define INSONIFY_FILLED_BY_LANE _Pragma("GCC diagnostic ignored \"-Wmaybe-uninitialized\"")
+#else
+#define INSONIFY_FILLED_BY_LANE
+#endif
 #if defined(__FP_FAST_FMA)
 #define INSONIFY_CONTRACTION_OFF _Pragma("GCC push_options") _Pragma("GCC optimize(\"fp-contract=off\")")
 #define INSONIFY_CONTRACTION_BACK _Pragma("GCC pop_options")
@@ -1562,6 +1569,23 @@ struct lanes_of<T, 1> {
 template <class T, int N>
 using lanes = typename lanes_of<T, N>::type;
 
+#if INSONIFY_SIMD
+/// Lanes I of the concatenation of two vectors.
+template <int... I, class Into, class Lanes>
+INSONIFY_INLINE void pick(Into& into, const Lanes& first, const Lanes& second) {
+#if __has_builtin(__builtin_shufflevector)
+    into = __builtin_shufflevector(first, second, I...);
+#else  // g++ 11
+    constexpr int n = sizeof first / sizeof first[0];
+    using index = std::conditional_t<sizeof first[0] == 4, std::int32_t, std::int64_t>;
+    if constexpr (sizeof...(I) == n)
+        into = __builtin_shuffle(first, second, lanes<index, n>{I...});
+    else
+        into = Into{(I < n ? first : second)[I % n]...};
+#endif
+}
+#endif
+
 /// Prefetches the cache line of an address.
 INSONIFY_INLINE void prefetch(const void* address) {
 #if defined(__GNUC__)
@@ -1637,8 +1661,9 @@ INSONIFY_INLINE unsigned movemask(const lanes<std::int32_t, N>& mask) {
         return static_cast<unsigned>(__builtin_ia32_movmskps(lanes<float, 4>(mask)));
     } else if constexpr (N > 4) {
         return [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-            const lanes<std::int32_t, N / 2> low = __builtin_shufflevector(mask, mask, I...),
-                                             high = __builtin_shufflevector(mask, mask, N / 2 + I...);
+            lanes<std::int32_t, N / 2> low, high;
+            pick<I...>(low, mask, mask);
+            pick<(N / 2 + I)...>(high, mask, mask);
             return movemask<N / 2>(low) | movemask<N / 2>(high) << N / 2;
         }
         (std::make_integer_sequence<int, N / 2>{});
@@ -1683,10 +1708,12 @@ INSONIFY_INLINE void gather(Lanes& into, const From& from) {
 template <int N, class Lanes, class Work>
 INSONIFY_INLINE void in_halves(Lanes& into, const Lanes& of, const Work& work) {
     [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-        auto low = __builtin_shufflevector(of, of, I...), high = __builtin_shufflevector(of, of, N / 2 + I...);
+        lanes<std::remove_cvref_t<decltype(of[0])>, N / 2> low, high;
+        pick<I...>(low, of, of);
+        pick<(N / 2 + I)...>(high, of, of);
         work(low, low);
         work(high, high);
-        into = __builtin_shufflevector(low, high, I..., N / 2 + I...);
+        pick<I..., (N / 2 + I)...>(into, low, high);
     }
     (std::make_integer_sequence<int, N / 2>{});
 }
@@ -1720,7 +1747,7 @@ INSONIFY_INLINE void unroll(const Body& body) {
 template <int N, class From, class Into, class Lanes>
 INSONIFY_INLINE void shuffle(Into& into, const Lanes& first, const Lanes& second, const From&) {
     [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-        into = __builtin_shufflevector(first, second, From{}(I)...);
+        pick<From{}(I)...>(into, first, second);
     }
     (std::make_integer_sequence<int, N>{});
 }
@@ -2064,8 +2091,8 @@ INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from)
         gather<half>(high, [&](int k) INSONIFY_INLINE_LAMBDA { return pair((k / run * 2 + 1) * run + k % run); });
         [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
             constexpr auto at = [](int k) { return k / run % 2 * N + k / (2 * run) * 2 * run + k % run * 2; };
-            first = __builtin_shufflevector(Lanes(low), Lanes(high), at(I)...);
-            second = __builtin_shufflevector(Lanes(low), Lanes(high), (at(I) + 1)...);
+            pick<at(I)...>(first, Lanes(low), Lanes(high));
+            pick<(at(I) + 1)...>(second, Lanes(low), Lanes(high));
         }
         (std::make_integer_sequence<int, N>{});
     } else
@@ -2134,11 +2161,12 @@ INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const Vector* 
     lanes<float, 4> a, b, c;  // xyzx yzxy zxyz
     const float* const values = &rows->x;
     load(a, values), load(b, values + 4), load(c, values + 8);
-    const lanes<float, 4> xy = __builtin_shufflevector(b, c, 2, 5, 3, 6),
-                          yz = __builtin_shufflevector(a, b, 1, 4, 2, 5);
-    into[0] = __builtin_shufflevector(a, xy, 0, 3, 4, 5);
-    into[1] = __builtin_shufflevector(yz, xy, 0, 1, 6, 7);
-    into[2] = __builtin_shufflevector(yz, c, 2, 3, 4, 7);
+    lanes<float, 4> xy, yz;
+    pick<2, 5, 3, 6>(xy, b, c);
+    pick<1, 4, 2, 5>(yz, a, b);
+    pick<0, 3, 4, 5>(into[0], a, xy);
+    pick<0, 1, 6, 7>(into[1], yz, xy);
+    pick<2, 3, 4, 7>(into[2], yz, c);
 }
 #endif
 
@@ -9010,7 +9038,7 @@ template <int N, class Whole, class Half>
 INSONIFY_INLINE void join(Whole& into, const Half& low, const Half& high) {
 #if INSONIFY_SIMD
     [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-        into = __builtin_shufflevector(low, high, I...);
+        insonify::detail::pick<I...>(into, low, high);
     }
     (std::make_integer_sequence<int, N>{});
 #else
@@ -13360,12 +13388,16 @@ struct vertex_kernel {
         std::memcpy(&position, &both, sizeof position);
         convert(depth, z);
         convert(over_w, inverse_w);
-        const floats rest[2] = {__builtin_shufflevector(depth, over_w, 0, 4, 1, 5),
-                                __builtin_shufflevector(depth, over_w, 2, 6, 3, 7)};
+        floats rest[2];
+        pick<0, 4, 1, 5>(rest[0], depth, over_w);
+        pick<2, 6, 3, 7>(rest[1], depth, over_w);
         unroll<2>([&](int i) INSONIFY_INLINE_LAMBDA {
             auto* const two = reinterpret_cast<float*>(&vertices.packed[start + 2 * static_cast<std::size_t>(i)]);
-            store(two, floats(__builtin_shufflevector(position[i], rest[i], 0, 1, 4, 5)));
-            store(two + 4, floats(__builtin_shufflevector(position[i], rest[i], 2, 3, 6, 7)));
+            floats low, high;
+            pick<0, 1, 4, 5>(low, position[i], rest[i]);
+            pick<2, 3, 6, 7>(high, position[i], rest[i]);
+            store(two, low);
+            store(two + 4, high);
         });
     }
 #endif

@@ -35,6 +35,23 @@ struct lanes_of<T, 1> {
 template <class T, int N>
 using lanes = typename lanes_of<T, N>::type;
 
+#if INSONIFY_SIMD
+/// Lanes I of the concatenation of two vectors.
+template <int... I, class Into, class Lanes>
+INSONIFY_INLINE void pick(Into& into, const Lanes& first, const Lanes& second) {
+#if __has_builtin(__builtin_shufflevector)
+    into = __builtin_shufflevector(first, second, I...);
+#else  // g++ 11
+    constexpr int n = sizeof first / sizeof first[0];
+    using index = std::conditional_t<sizeof first[0] == 4, std::int32_t, std::int64_t>;
+    if constexpr (sizeof...(I) == n)
+        into = __builtin_shuffle(first, second, lanes<index, n>{I...});
+    else
+        into = Into{(I < n ? first : second)[I % n]...};
+#endif
+}
+#endif
+
 /// Prefetches the cache line of an address.
 INSONIFY_INLINE void prefetch(const void* address) {
 #if defined(__GNUC__)
@@ -110,8 +127,9 @@ INSONIFY_INLINE unsigned movemask(const lanes<std::int32_t, N>& mask) {
         return static_cast<unsigned>(__builtin_ia32_movmskps(lanes<float, 4>(mask)));
     } else if constexpr (N > 4) {
         return [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-            const lanes<std::int32_t, N / 2> low = __builtin_shufflevector(mask, mask, I...),
-                                             high = __builtin_shufflevector(mask, mask, N / 2 + I...);
+            lanes<std::int32_t, N / 2> low, high;
+            pick<I...>(low, mask, mask);
+            pick<(N / 2 + I)...>(high, mask, mask);
             return movemask<N / 2>(low) | movemask<N / 2>(high) << N / 2;
         }
         (std::make_integer_sequence<int, N / 2>{});
@@ -156,10 +174,12 @@ INSONIFY_INLINE void gather(Lanes& into, const From& from) {
 template <int N, class Lanes, class Work>
 INSONIFY_INLINE void in_halves(Lanes& into, const Lanes& of, const Work& work) {
     [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-        auto low = __builtin_shufflevector(of, of, I...), high = __builtin_shufflevector(of, of, N / 2 + I...);
+        lanes<std::remove_cvref_t<decltype(of[0])>, N / 2> low, high;
+        pick<I...>(low, of, of);
+        pick<(N / 2 + I)...>(high, of, of);
         work(low, low);
         work(high, high);
-        into = __builtin_shufflevector(low, high, I..., N / 2 + I...);
+        pick<I..., (N / 2 + I)...>(into, low, high);
     }
     (std::make_integer_sequence<int, N / 2>{});
 }
@@ -193,7 +213,7 @@ INSONIFY_INLINE void unroll(const Body& body) {
 template <int N, class From, class Into, class Lanes>
 INSONIFY_INLINE void shuffle(Into& into, const Lanes& first, const Lanes& second, const From&) {
     [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-        into = __builtin_shufflevector(first, second, From{}(I)...);
+        pick<From{}(I)...>(into, first, second);
     }
     (std::make_integer_sequence<int, N>{});
 }

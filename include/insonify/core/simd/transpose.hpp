@@ -34,8 +34,8 @@ INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from)
         gather<half>(high, [&](int k) INSONIFY_INLINE_LAMBDA { return pair((k / run * 2 + 1) * run + k % run); });
         [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
             constexpr auto at = [](int k) { return k / run % 2 * N + k / (2 * run) * 2 * run + k % run * 2; };
-            first = __builtin_shufflevector(Lanes(low), Lanes(high), at(I)...);
-            second = __builtin_shufflevector(Lanes(low), Lanes(high), (at(I) + 1)...);
+            pick<at(I)...>(first, Lanes(low), Lanes(high));
+            pick<(at(I) + 1)...>(second, Lanes(low), Lanes(high));
         }
         (std::make_integer_sequence<int, N>{});
     } else
@@ -104,11 +104,12 @@ INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const Vector* 
     lanes<float, 4> a, b, c;  // xyzx yzxy zxyz
     const float* const values = &rows->x;
     load(a, values), load(b, values + 4), load(c, values + 8);
-    const lanes<float, 4> xy = __builtin_shufflevector(b, c, 2, 5, 3, 6),
-                          yz = __builtin_shufflevector(a, b, 1, 4, 2, 5);
-    into[0] = __builtin_shufflevector(a, xy, 0, 3, 4, 5);
-    into[1] = __builtin_shufflevector(yz, xy, 0, 1, 6, 7);
-    into[2] = __builtin_shufflevector(yz, c, 2, 3, 4, 7);
+    lanes<float, 4> xy, yz;
+    pick<2, 5, 3, 6>(xy, b, c);
+    pick<1, 4, 2, 5>(yz, a, b);
+    pick<0, 3, 4, 5>(into[0], a, xy);
+    pick<0, 1, 6, 7>(into[1], yz, xy);
+    pick<2, 3, 4, 7>(into[2], yz, c);
 }
 #endif
 

@@ -184,12 +184,16 @@ struct vertex_kernel {
         std::memcpy(&position, &both, sizeof position);
         convert(depth, z);
         convert(over_w, inverse_w);
-        const floats rest[2] = {__builtin_shufflevector(depth, over_w, 0, 4, 1, 5),
-                                __builtin_shufflevector(depth, over_w, 2, 6, 3, 7)};
+        floats rest[2];
+        pick<0, 4, 1, 5>(rest[0], depth, over_w);
+        pick<2, 6, 3, 7>(rest[1], depth, over_w);
         unroll<2>([&](int i) INSONIFY_INLINE_LAMBDA {
             auto* const two = reinterpret_cast<float*>(&vertices.packed[start + 2 * static_cast<std::size_t>(i)]);
-            store(two, floats(__builtin_shufflevector(position[i], rest[i], 0, 1, 4, 5)));
-            store(two + 4, floats(__builtin_shufflevector(position[i], rest[i], 2, 3, 6, 7)));
+            floats low, high;
+            pick<0, 1, 4, 5>(low, position[i], rest[i]);
+            pick<2, 3, 6, 7>(high, position[i], rest[i]);
+            store(two, low);
+            store(two + 4, high);
         });
     }
 #endif

@@ -99,7 +99,7 @@ template <int N, class Whole, class Half>
 INSONIFY_INLINE void join(Whole& into, const Half& low, const Half& high) {
 #if INSONIFY_SIMD
     [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-        into = __builtin_shufflevector(low, high, I...);
+        insonify::detail::pick<I...>(into, low, high);
     }
     (std::make_integer_sequence<int, N>{});
 #else
