@@ -6,6 +6,8 @@
 #include <insonify/seabed/flat.hpp>
 #include <insonify/seabed/ripples.hpp>
 
+#include <utility>
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
@@ -55,7 +57,9 @@ class mixed_sampler {
         for (std::uint32_t i = 0; i < m.layers.size(); ++i) {
             const layer& l = m.layers[i];
             relief = (std::max)(relief, l.bottom.sink_depth());
-            layers_.push_back({l.bottom.prepare(), {l.where, l.border, l.ragged, m.seed, i}, {l.border, relief}});
+            // Named, since g++ 11 loses the members of an unnamed aggregate that is half made when an error is thrown.
+            prepared_layer top{l.bottom.prepare(), {l.where, l.border, l.ragged, m.seed, i}, {l.border, relief}};
+            layers_.push_back(std::move(top));
         }
     }
 
