@@ -50,8 +50,8 @@
 // Fused multiply-add rounds once where a product and a sum round twice, so contraction changes results. These two
 // macros enclose every header with floating-point arithmetic and disable contraction whatever the flags, except that
 // clang ignores the pragma under an explicit -ffp-contract=fast (not under fast-honor-pragmas). They also suppress
-// g++'s note on the ABI of wide vectors, which are passed only within always-inlined code, and g++ 11's false warnings of
-// vectors that are filled lane by lane.
+// g++'s note on the ABI of wide vectors, which are passed only within always-inlined code, and g++ 11's false warnings
+// of vectors that are filled lane by lane.
 #if defined(__clang__) && !defined(__x86_64__) && !defined(__i386__)
 // clang has float_control on x86 alone. WebAssembly has no fused instruction.
 #if defined(__wasm__)

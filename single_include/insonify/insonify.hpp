@@ -83,8 +83,8 @@
 // Fused multiply-add rounds once where a product and a sum round twice, so contraction changes results. These two
 // macros enclose every header with floating-point arithmetic and disable contraction whatever the flags, except that
 // clang ignores the pragma under an explicit -ffp-contract=fast (not under fast-honor-pragmas). They also suppress
-// g++'s note on the ABI of wide vectors, which are passed only within always-inlined code, and g++ 11's false warnings of
-// vectors that are filled lane by lane.
+// g++'s note on the ABI of wide vectors, which are passed only within always-inlined code, and g++ 11's false warnings
+// of vectors that are filled lane by lane.
 #if defined(__clang__) && !defined(__x86_64__) && !defined(__i386__)
 // clang has float_control on x86 alone. WebAssembly has no fused instruction.
 #if defined(__wasm__)
@@ -1584,7 +1584,34 @@ INSONIFY_INLINE void pick(Into& into, const Lanes& first, const Lanes& second) {
         into = Into{(I < n ? first : second)[I % n]...};
 #endif
 }
+
+/// Lane i is lane `from(i)` of the concatenation of two vectors.
+template <int N, class From, class Into, class Lanes>
+INSONIFY_INLINE void shuffle(Into& into, const Lanes& first, const Lanes& second, const From&) {
+    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+        pick<From{}(I)...>(into, first, second);
+    }
+    (std::make_integer_sequence<int, N>{});
+}
+
+/// Cuts N lanes in two.
+template <int N, class Half, class Lanes>
+INSONIFY_INLINE void split(Half& low, Half& high, const Lanes& of) {
+    shuffle<N / 2>(low, of, of, [](int i) { return i; });
+    shuffle<N / 2>(high, of, of, [](int i) { return N / 2 + i; });
+}
 #endif
+
+/// Joins two halves to N lanes.
+template <int N, class Lanes, class Half>
+INSONIFY_INLINE void join(Lanes& into, const Half& low, const Half& high) {
+#if INSONIFY_SIMD
+    shuffle<N>(into, low, high, [](int i) { return i; });
+#else
+    static_cast<void>(high);
+    into = low;
+#endif
+}
 
 /// Prefetches the cache line of an address.
 INSONIFY_INLINE void prefetch(const void* address) {
@@ -1660,13 +1687,9 @@ INSONIFY_INLINE unsigned movemask(const lanes<std::int32_t, N>& mask) {
     if constexpr (N == 4) {
         return static_cast<unsigned>(__builtin_ia32_movmskps(lanes<float, 4>(mask)));
     } else if constexpr (N > 4) {
-        return [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-            lanes<std::int32_t, N / 2> low, high;
-            pick<I...>(low, mask, mask);
-            pick<(N / 2 + I)...>(high, mask, mask);
-            return movemask<N / 2>(low) | movemask<N / 2>(high) << N / 2;
-        }
-        (std::make_integer_sequence<int, N / 2>{});
+        lanes<std::int32_t, N / 2> low, high;
+        split<N>(low, high, mask);
+        return movemask<N / 2>(low) | movemask<N / 2>(high) << N / 2;
     } else
 #endif
     {
@@ -1707,15 +1730,11 @@ INSONIFY_INLINE void gather(Lanes& into, const From& from) {
 /// Applies `work(half, from)` to the lower and the upper half of N lanes.
 template <int N, class Lanes, class Work>
 INSONIFY_INLINE void in_halves(Lanes& into, const Lanes& of, const Work& work) {
-    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-        lanes<std::remove_cvref_t<decltype(of[0])>, N / 2> low, high;
-        pick<I...>(low, of, of);
-        pick<(N / 2 + I)...>(high, of, of);
-        work(low, low);
-        work(high, high);
-        pick<I..., (N / 2 + I)...>(into, low, high);
-    }
-    (std::make_integer_sequence<int, N / 2>{});
+    lanes<std::remove_cvref_t<decltype(of[0])>, N / 2> low, high;
+    split<N>(low, high, of);
+    work(low, low);
+    work(high, high);
+    join<N>(into, low, high);
 }
 #endif
 
@@ -1741,17 +1760,6 @@ INSONIFY_INLINE void unroll(const Body& body) {
     }
     (std::make_integer_sequence<int, Count>{});
 }
-
-#if INSONIFY_SIMD
-/// Lane i is lane `from(i)` of the concatenation of two vectors.
-template <int N, class From, class Into, class Lanes>
-INSONIFY_INLINE void shuffle(Into& into, const Lanes& first, const Lanes& second, const From&) {
-    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-        pick<From{}(I)...>(into, first, second);
-    }
-    (std::make_integer_sequence<int, N>{});
-}
-#endif
 
 /// 0, 1, ... N - 1.
 template <class T, int N>
@@ -2113,7 +2121,7 @@ INSONIFY_INLINE void load_fours(lanes<float, N>& into, const From& from) {
         lanes<float, N / 2> low, high;
         load_fours<N / 2>(low, from);
         load_fours<N / 2>(high, [&](int i) { return from(N / 8 + i); });
-        shuffle<N>(into, low, high, [](int i) { return i; });
+        join<N>(into, low, high);
     }
 }
 
@@ -9033,20 +9041,6 @@ void add_relief(const Model& model, const stretch& part, stretch_values& values,
     dispatch(relief_kernel<Model>{model, part, values.data()}, level);
 }
 
-/// Concatenates two halves.
-template <int N, class Whole, class Half>
-INSONIFY_INLINE void join(Whole& into, const Half& low, const Half& high) {
-#if INSONIFY_SIMD
-    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-        insonify::detail::pick<I...>(into, low, high);
-    }
-    (std::make_integer_sequence<int, N>{});
-#else
-    static_cast<void>(high);
-    into = low;
-#endif
-}
-
 /// N positions on a lattice: fractions within their cells, in [0, 1], and indices of the cells, counted from `first`.
 template <int N>
 INSONIFY_INLINE void locate(lanes<float, N>& across, lanes<std::int32_t, N>& cell, const double* x, double frequency,
@@ -9069,8 +9063,8 @@ INSONIFY_INLINE void locate(lanes<float, N>& across, lanes<std::int32_t, N>& cel
             insonify::detail::convert(index[k], lanes<double, half>(floor - first));
             insonify::detail::convert(part[k], lanes<double, half>(u - floor));
         }
-        join<N>(across, part[0], part[1]);
-        join<N>(cell, index[0], index[1]);
+        insonify::detail::join<N>(across, part[0], part[1]);
+        insonify::detail::join<N>(cell, index[0], index[1]);
     }
 }
 
@@ -9089,7 +9083,7 @@ INSONIFY_INLINE void reduced(lanes<float, N>& into, const double* x, double freq
             u = u * frequency + offset;
             reduce(part[k], u);
         }
-        join<N>(into, part[0], part[1]);
+        insonify::detail::join<N>(into, part[0], part[1]);
     }
 }
 
@@ -22362,7 +22356,7 @@ class csv_table {
     template <csv_cell... Cells>
     void add(const Cells&... cells) {
         detail::require_equal("number of cells in a row", sizeof...(cells), columns_, "one for each column");
-        std::string line;  // whole before it is added, should memory run out
+        std::string line;                        // whole before it is added, should memory run out
         [[maybe_unused]] std::size_t index = 0;  // of a row without cells
         (append(line, cells, index++), ...);
         line += "\r\n";

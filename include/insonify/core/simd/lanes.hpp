@@ -50,7 +50,34 @@ INSONIFY_INLINE void pick(Into& into, const Lanes& first, const Lanes& second) {
         into = Into{(I < n ? first : second)[I % n]...};
 #endif
 }
+
+/// Lane i is lane `from(i)` of the concatenation of two vectors.
+template <int N, class From, class Into, class Lanes>
+INSONIFY_INLINE void shuffle(Into& into, const Lanes& first, const Lanes& second, const From&) {
+    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+        pick<From{}(I)...>(into, first, second);
+    }
+    (std::make_integer_sequence<int, N>{});
+}
+
+/// Cuts N lanes in two.
+template <int N, class Half, class Lanes>
+INSONIFY_INLINE void split(Half& low, Half& high, const Lanes& of) {
+    shuffle<N / 2>(low, of, of, [](int i) { return i; });
+    shuffle<N / 2>(high, of, of, [](int i) { return N / 2 + i; });
+}
 #endif
+
+/// Joins two halves to N lanes.
+template <int N, class Lanes, class Half>
+INSONIFY_INLINE void join(Lanes& into, const Half& low, const Half& high) {
+#if INSONIFY_SIMD
+    shuffle<N>(into, low, high, [](int i) { return i; });
+#else
+    static_cast<void>(high);
+    into = low;
+#endif
+}
 
 /// Prefetches the cache line of an address.
 INSONIFY_INLINE void prefetch(const void* address) {
@@ -126,13 +153,9 @@ INSONIFY_INLINE unsigned movemask(const lanes<std::int32_t, N>& mask) {
     if constexpr (N == 4) {
         return static_cast<unsigned>(__builtin_ia32_movmskps(lanes<float, 4>(mask)));
     } else if constexpr (N > 4) {
-        return [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-            lanes<std::int32_t, N / 2> low, high;
-            pick<I...>(low, mask, mask);
-            pick<(N / 2 + I)...>(high, mask, mask);
-            return movemask<N / 2>(low) | movemask<N / 2>(high) << N / 2;
-        }
-        (std::make_integer_sequence<int, N / 2>{});
+        lanes<std::int32_t, N / 2> low, high;
+        split<N>(low, high, mask);
+        return movemask<N / 2>(low) | movemask<N / 2>(high) << N / 2;
     } else
 #endif
     {
@@ -173,15 +196,11 @@ INSONIFY_INLINE void gather(Lanes& into, const From& from) {
 /// Applies `work(half, from)` to the lower and the upper half of N lanes.
 template <int N, class Lanes, class Work>
 INSONIFY_INLINE void in_halves(Lanes& into, const Lanes& of, const Work& work) {
-    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-        lanes<std::remove_cvref_t<decltype(of[0])>, N / 2> low, high;
-        pick<I...>(low, of, of);
-        pick<(N / 2 + I)...>(high, of, of);
-        work(low, low);
-        work(high, high);
-        pick<I..., (N / 2 + I)...>(into, low, high);
-    }
-    (std::make_integer_sequence<int, N / 2>{});
+    lanes<std::remove_cvref_t<decltype(of[0])>, N / 2> low, high;
+    split<N>(low, high, of);
+    work(low, low);
+    work(high, high);
+    join<N>(into, low, high);
 }
 #endif
 
@@ -207,17 +226,6 @@ INSONIFY_INLINE void unroll(const Body& body) {
     }
     (std::make_integer_sequence<int, Count>{});
 }
-
-#if INSONIFY_SIMD
-/// Lane i is lane `from(i)` of the concatenation of two vectors.
-template <int N, class From, class Into, class Lanes>
-INSONIFY_INLINE void shuffle(Into& into, const Lanes& first, const Lanes& second, const From&) {
-    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-        pick<From{}(I)...>(into, first, second);
-    }
-    (std::make_integer_sequence<int, N>{});
-}
-#endif
 
 /// 0, 1, ... N - 1.
 template <class T, int N>

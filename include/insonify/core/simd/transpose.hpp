@@ -56,7 +56,7 @@ INSONIFY_INLINE void load_fours(lanes<float, N>& into, const From& from) {
         lanes<float, N / 2> low, high;
         load_fours<N / 2>(low, from);
         load_fours<N / 2>(high, [&](int i) { return from(N / 8 + i); });
-        shuffle<N>(into, low, high, [](int i) { return i; });
+        join<N>(into, low, high);
     }
 }
 

@@ -94,20 +94,6 @@ void add_relief(const Model& model, const stretch& part, stretch_values& values,
     dispatch(relief_kernel<Model>{model, part, values.data()}, level);
 }
 
-/// Concatenates two halves.
-template <int N, class Whole, class Half>
-INSONIFY_INLINE void join(Whole& into, const Half& low, const Half& high) {
-#if INSONIFY_SIMD
-    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-        insonify::detail::pick<I...>(into, low, high);
-    }
-    (std::make_integer_sequence<int, N>{});
-#else
-    static_cast<void>(high);
-    into = low;
-#endif
-}
-
 /// N positions on a lattice: fractions within their cells, in [0, 1], and indices of the cells, counted from `first`.
 template <int N>
 INSONIFY_INLINE void locate(lanes<float, N>& across, lanes<std::int32_t, N>& cell, const double* x, double frequency,
@@ -130,8 +116,8 @@ INSONIFY_INLINE void locate(lanes<float, N>& across, lanes<std::int32_t, N>& cel
             insonify::detail::convert(index[k], lanes<double, half>(floor - first));
             insonify::detail::convert(part[k], lanes<double, half>(u - floor));
         }
-        join<N>(across, part[0], part[1]);
-        join<N>(cell, index[0], index[1]);
+        insonify::detail::join<N>(across, part[0], part[1]);
+        insonify::detail::join<N>(cell, index[0], index[1]);
     }
 }
 
@@ -150,7 +136,7 @@ INSONIFY_INLINE void reduced(lanes<float, N>& into, const double* x, double freq
             u = u * frequency + offset;
             reduce(part[k], u);
         }
-        join<N>(into, part[0], part[1]);
+        insonify::detail::join<N>(into, part[0], part[1]);
     }
 }
 
