@@ -18151,7 +18151,7 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
 /// The bits depend on the model and the positions of the vertices alone, not on the executor or on what else is in
 /// the grid.
 /// @param source  the library's or a user's own
-/// @throws invalid_input for a grid smaller than 2 x 2, an origin beyond 1e9 metres or a spacing that is not above 0
+/// @throws invalid_input for a grid smaller than 2 x 2, a corner beyond 1e9 metres or a spacing that is not above 0
 /// and below 10^6 m, for parameters of the model out of their range, and for own labels that its legend lacks
 template <model Model, executor_argument Executor = serial_executor>
 heightfield sample(const Model& source, const grid& where, Executor&& ex = serial_executor{}) {
@@ -18168,6 +18168,8 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
     else
         result.types = image<type>(where.width, where.height, uninitialized, memory);
     validate(result);
+    detail::require_position("last vertex of the grid",
+                             result.origin + result.spacing * glm::dvec2(where.width - 1, where.height - 1));
 
     const auto prepared = prepare(source);
     const detail::known_labels known(legend);
@@ -20024,6 +20026,8 @@ class obj_reader {
     /// The text is usually a path, or a file of another format.
     [[noreturn]] void refuse_without_face() const {
         if (is_file_name(text_)) raise_io(name_, quoted(text_) + " is a file name: load_obj reads files");
+        if (text_.substr(0, 2) == "\xFF\xFE" || text_.substr(0, 2) == "\xFE\xFF")
+            raise_io(name_, "the text is UTF-16: save it as UTF-8");
         raise_io(name_, "the text has no face, expected at least one line such as 'f 1 2 3'");
     }
     /// One line that ends in .obj.
@@ -22887,6 +22891,9 @@ inline grid_soundings read_soundings(survey_reader& in, double spacing, float sc
 /// Refuses soundings that make no grid of a useful size.
 inline void require_extent(const survey_reader& in, const grid_soundings& s, double spacing) {
     if (s.all.empty()) in.fail("there are no soundings");
+    if (std::none_of(s.all.begin(), s.all.end(),
+                     [](const auto& one) { return numeric::is_finite(height_or_nan(one.height)); }))
+        in.fail("no sounding has a z within 1000 km of 0");
     const double vertices = static_cast<double>(s.width()) * static_cast<double>(s.height());
     const auto count = static_cast<double>(s.all.size());
     // Bounds the memory that two distant soundings may cost.
@@ -22939,9 +22946,10 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
 /// @param spacing  metres between vertices, > 0; vertices are multiples of it
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors
-/// @throws io_error for a text without soundings, an Esri grid, a line of fewer than three numbers or with decimal
-///         commas, soundings that span less than a spacing or crowd at a few vertices, as those in degrees do, or
-///         soundings so far apart that there are more than 1024 vertices for each, or more than 2^26
+/// @throws io_error for a text without soundings or with none but missing data, an Esri grid, a line of fewer than three
+///         numbers or with decimal commas, soundings that span less than a spacing or crowd at a few vertices, as
+///         those in degrees do, or soundings so far apart that there are more than 1024 vertices for each, or more
+///         than 2^26
 inline heightfield parse_xyz(std::string_view text, double spacing, float scale = 1, std::string_view name = "xyz") {
     detail::require_positive_metres("spacing", spacing);
     detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");

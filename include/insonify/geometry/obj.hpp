@@ -133,6 +133,8 @@ class obj_reader {
     /// The text is usually a path, or a file of another format.
     [[noreturn]] void refuse_without_face() const {
         if (is_file_name(text_)) raise_io(name_, quoted(text_) + " is a file name: load_obj reads files");
+        if (text_.substr(0, 2) == "\xFF\xFE" || text_.substr(0, 2) == "\xFE\xFF")
+            raise_io(name_, "the text is UTF-16: save it as UTF-8");
         raise_io(name_, "the text has no face, expected at least one line such as 'f 1 2 3'");
     }
     /// One line that ends in .obj.

@@ -129,6 +129,9 @@ inline grid_soundings read_soundings(survey_reader& in, double spacing, float sc
 /// Refuses soundings that make no grid of a useful size.
 inline void require_extent(const survey_reader& in, const grid_soundings& s, double spacing) {
     if (s.all.empty()) in.fail("there are no soundings");
+    if (std::none_of(s.all.begin(), s.all.end(),
+                     [](const auto& one) { return numeric::is_finite(height_or_nan(one.height)); }))
+        in.fail("no sounding has a z within 1000 km of 0");
     const double vertices = static_cast<double>(s.width()) * static_cast<double>(s.height());
     const auto count = static_cast<double>(s.all.size());
     // Bounds the memory that two distant soundings may cost.
@@ -181,9 +184,10 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
 /// @param spacing  metres between vertices, > 0; vertices are multiples of it
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors
-/// @throws io_error for a text without soundings, an Esri grid, a line of fewer than three numbers or with decimal
-///         commas, soundings that span less than a spacing or crowd at a few vertices, as those in degrees do, or
-///         soundings so far apart that there are more than 1024 vertices for each, or more than 2^26
+/// @throws io_error for a text without soundings or with none but missing data, an Esri grid, a line of fewer than three
+///         numbers or with decimal commas, soundings that span less than a spacing or crowd at a few vertices, as
+///         those in degrees do, or soundings so far apart that there are more than 1024 vertices for each, or more
+///         than 2^26
 inline heightfield parse_xyz(std::string_view text, double spacing, float scale = 1, std::string_view name = "xyz") {
     detail::require_positive_metres("spacing", spacing);
     detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");

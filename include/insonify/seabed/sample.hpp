@@ -59,7 +59,7 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
 /// The bits depend on the model and the positions of the vertices alone, not on the executor or on what else is in
 /// the grid.
 /// @param source  the library's or a user's own
-/// @throws invalid_input for a grid smaller than 2 x 2, an origin beyond 1e9 metres or a spacing that is not above 0
+/// @throws invalid_input for a grid smaller than 2 x 2, a corner beyond 1e9 metres or a spacing that is not above 0
 /// and below 10^6 m, for parameters of the model out of their range, and for own labels that its legend lacks
 template <model Model, executor_argument Executor = serial_executor>
 heightfield sample(const Model& source, const grid& where, Executor&& ex = serial_executor{}) {
@@ -76,6 +76,8 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
     else
         result.types = image<type>(where.width, where.height, uninitialized, memory);
     validate(result);
+    detail::require_position("last vertex of the grid",
+                             result.origin + result.spacing * glm::dvec2(where.width - 1, where.height - 1));
 
     const auto prepared = prepare(source);
     const detail::known_labels known(legend);

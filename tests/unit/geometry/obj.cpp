@@ -137,6 +137,8 @@ TEST_CASE("A text without a face is refused, and a file name among them points a
     CAPTURE(path);
     CHECK_THROWS_WITH(in::read_obj(path), ContainsSubstring("OBJ text: ") && ContainsSubstring("is a file name") &&
                                               ContainsSubstring("load_obj"));
+    CHECK(refusal(std::string("\xFF\xFEv\0 \0", 6)) == "a.obj: the text is UTF-16: save it as UTF-8");
+    CHECK(refusal(std::string("\xFE\xFF\0v\0 ", 6)) == "a.obj: the text is UTF-16: save it as UTF-8");
     // Several lines are a text, whatever the last one ends in.
     CHECK_THROWS_WITH(in::read_obj("# from\n# ship.obj"), ContainsSubstring("has no face"));
 }

@@ -98,6 +98,7 @@ TEST_CASE("Soundings are read line by line, with any line ending") {
 
 TEST_CASE("Text that is not a list of soundings is refused") {
     CHECK_THROWS_WITH(sb::parse_xyz("", 1), ContainsSubstring("no soundings"));
+    CHECK_THROWS_WITH(sb::parse_xyz("0 0 nan\n1 0 NaN\n0 1 1e30", 1), ContainsSubstring("no sounding has a z"));
     // Rows of an Esri grid would pass for soundings.
     CHECK_THROWS_WITH(sb::parse_xyz("NCOLS 3\nnrows 2\n1 2 3\n4 5 6\n", 1), ContainsSubstring("parse_esri_grid"));
     CHECK_THROWS_WITH(sb::parse_xyz("1 2", 1), ContainsSubstring("ends before a z"));

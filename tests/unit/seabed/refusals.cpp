@@ -143,6 +143,8 @@ TEST_CASE("Each field of heightfields and grids is refused by name") {
         CHECK_THAT(refusal([&] { (void)sb::grid_over({0, 0}, {value, 1}, 0.5); }), ContainsSubstring("high.x is"));
     }
     CHECK_THAT(refusal([] { (void)sb::grid_over({0, 2}, {1, 1}, 0.5); }), ContainsSubstring("high.y is 1"));
+    CHECK_THAT(refusal([] { (void)sb::sample(sb::mud{}, {.origin = {9e8, 0}, .spacing = 999999, .width = 200}); }),
+               ContainsSubstring("last vertex of the grid.x is"));
 }
 
 TEST_CASE("A length refused for being too large names the limit") {
