@@ -1,7 +1,7 @@
-// One picture of a data set: contact_sheet <data set> <out.png> [images per class]
+// One picture of a set of the recipe `published`: contact_sheet <data set> <out.png> [images per class]
 //
-// A row for each class; in it, plain images before those with the look of a reference, by seabed. Sets of the recipe
-// `published` have a scale bar in each tile.
+// A row for each class; in it, plain images before those with the look of a reference, by seabed. Each tile has a scale
+// bar.
 #include <insonify/core/image.hpp>
 #include <insonify/io/file.hpp>
 #include <insonify/io/png.hpp>
@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
-#include <sstream>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -18,6 +18,7 @@
 #include "common/scale_bar.hpp"
 #include "common/text.hpp"
 #include "common/usage.hpp"
+#include "generate_dataset/csv.hpp"
 
 namespace in = insonify;
 
@@ -28,47 +29,28 @@ constexpr int tile = 256, gap = 8, caption = 20;
 struct entry {
     std::string class_name, seabed, file;
     bool referenced;
-    double metres;  ///< along a side, 0 if the manifest has no scale
+    double metres;  ///< along a side
     auto order() const { return std::tie(referenced, seabed, file); }
 };
 
-/// The cells of a line of a CSV table (RFC 4180), whose cells hold no line break.
-std::vector<std::string> cells(const std::string& line) {
-    std::vector<std::string> result(1);
-    bool quoted = false;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        if (line[i] == '"' && quoted && line.substr(i + 1, 1) == "\"")
-            result.back() += line[i++];
-        else if (line[i] == '"')
-            quoted = !quoted;
-        else if (line[i] == ',' && !quoted)
-            result.emplace_back();
-        else if (line[i] != '\r')
-            result.back() += line[i];
-    }
-    return result;
-}
-
 /// The images of a data set by class, from its manifest.
 std::map<std::string, std::vector<entry>> read_manifest(const std::string& folder) {
-    std::istringstream text(in::read_file(folder + "/manifest.csv"));
-    std::string line;
-    std::getline(text, line);
-    const std::vector<std::string> names = cells(line);
+    const std::string path = folder + "/manifest.csv", text = in::read_file(path);
+    generator::csv_reader table(path, text);
+    std::vector<std::string> names, row;
+    table.next(names);
     const auto column = [&](const char* name) {
         const auto found = std::find(names.begin(), names.end(), name);
-        if (found == names.end()) throw in::io_error(folder + "/manifest.csv: has no column " + name);
+        if (found == names.end()) throw in::io_error(path + ": has no column " + name);
         return static_cast<std::size_t>(found - names.begin());
     };
     const std::size_t file = column("file"), name = column("class"), seabed = column("seabed"),
-                      look = column("reference"), pixels = column("size_px");
-    const auto scale =
-        static_cast<std::size_t>(std::find(names.begin(), names.end(), "metres_per_pixel") - names.begin());
+                      look = column("reference"), pixels = column("size_px"), scale = column("metres_per_pixel");
     std::map<std::string, std::vector<entry>> classes;
-    while (std::getline(text, line)) {
-        const std::vector<std::string> row = cells(line);
-        if (row.size() < names.size()) continue;
-        const double metres = scale < names.size() ? std::atof(row[scale].c_str()) * std::atof(row[pixels].c_str()) : 0;
+    while (table.next(row)) {
+        if (row.size() != names.size())
+            throw in::io_error(path + ": line " + std::to_string(table.line()) + " is cut off");
+        const double metres = std::atof(row[scale].c_str()) * std::atof(row[pixels].c_str());
         classes[row[name]].push_back({row[name], row[seabed], row[file], row[look] != "-1", metres});
     }
     for (auto& [key, entries] : classes)
@@ -110,17 +92,15 @@ int main(int argc, char** argv) try {
     for (const auto& [name, entries] : classes) columns = (std::max)(columns, (std::min)(per_class, entries.size()));
     in::image<float> sheet(static_cast<int>(columns) * (tile + gap) + gap,
                            caption + static_cast<int>(classes.size()) * (tile + gap + caption) + gap, 0.12f);
-    const bool has_scale = classes.begin()->second.front().metres > 0;
-    if (has_scale) examples::write_text(sheet, gap + 2, gap, "sound travels from left to right", 1.0f);
-    int top = gap + (has_scale ? caption : 0);
+    examples::write_text(sheet, gap + 2, gap, "sound travels from left to right", 1.0f);
+    int top = gap + caption;
     for (const auto& [name, entries] : classes) {
         for (std::size_t i = 0; i < (std::min)(per_class, entries.size()); ++i) {
             const int left = gap + static_cast<int>(i) * (tile + gap);
             const in::image<float> thumbnail = shrink(examples::read_gray(folder + "/" + entries[i].file));
             for (int y = 0; y < tile; ++y)
                 std::copy_n(thumbnail.row(y).begin(), tile, sheet.row(top + y).begin() + left);
-            if (entries[i].metres > 0)
-                examples::draw_scale_bar(sheet, left + tile, top + tile, tile, entries[i].metres, 1.0f, 0.12f);
+            examples::draw_scale_bar(sheet, left + tile, top + tile, tile, entries[i].metres, 1.0f, 0.12f);
             examples::write_text(
                 sheet, left + 2, top + tile + 5,
                 name + ", " + entries[i].seabed + (entries[i].referenced ? ", look of a reference" : ""), 1.0f);

@@ -2,6 +2,8 @@
 #
 #   need <name>...   checks dependencies; installs missing ones on Debian and Ubuntu, lists their packages elsewhere
 #   build_options    sets the array `generator` to CMake options for ninja and ccache, and the number of parallel jobs
+#   build_programs <target>...   builds programs of examples/ in build/generate; sets `programs` to their folder
+#   choose_python <modules>      sets `python` to one that can import them: the distribution's, if python3 can't
 #   explain "$@"     prints the comment at the top of the tool, and $options_file, and exits, if --help is among the words
 #   accept "$@"      exits with an error for an option that --help does not name
 #   refuse <word>    exits with an error for a word that is not an option
@@ -191,4 +193,18 @@ build_options() {
     CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(getconf _NPROCESSORS_ONLN)}
     CTEST_PARALLEL_LEVEL=${CTEST_PARALLEL_LEVEL:-$CMAKE_BUILD_PARALLEL_LEVEL}
     export CMAKE_BUILD_PARALLEL_LEVEL CTEST_PARALLEL_LEVEL CTEST_OUTPUT_ON_FAILURE=1
+}
+
+build_programs() {
+    need g++ cmake ninja glm stb cli11 json openssl archive png || exit 1
+    build_options
+    local build=$PWD/build/generate
+    cmake --preset release --log-level=NOTICE -B "$build" "${generator[@]}" -DCMAKE_CXX_COMPILER=g++ \
+        -DINSONIFY_BUILD_TESTS=OFF >&2 && cmake --build "$build" --target "$@" >&2 || exit 1
+    programs=$build/examples
+}
+
+choose_python() {
+    python=python3
+    "$python" -c "import $1" 2>/dev/null || python=/usr/bin/python3
 }

@@ -36,6 +36,8 @@ void data_card::add(const json& record) {
         const auto [found, is_new] = columns_.try_emplace(name);
         if (is_new) names_.push_back(name);
         column& c = found->second;
+        if (is_new) c.first = value;
+        c.is_constant = c.is_constant && value == c.first;
         if (value.is_number()) {
             const double v = value.get<double>();
             c.lowest = c.count == 0 ? v : std::min(c.lowest, v);
@@ -53,12 +55,17 @@ void data_card::add(const json& record) {
 
 std::string data_card::text(const json& config) const {
     const auto number = [](auto n) { return std::to_string(n); };
-    const std::string size = config.at("size").dump();
+    // A plan may have other sizes and seeds than the options.
+    const auto range_of = [&](const std::string& name) {
+        const column& c = columns_.at(name);
+        return c.is_constant ? c.first.dump() : shown(c.lowest) + " to " + shown(c.highest);
+    };
+    const std::string size = range_of("size_px");
     std::string t = "# A synthetic side-scan sonar data set\n\n" + number(images_) + " images of " + size + " x " +
                     size + " pixels, with masks, boxes and parameters; " + number(files_) +
                     " files of images and masks, " + number(bytes_) + " bytes. Made by `generate_dataset`, " +
                     config.at("version").get<std::string>() + ", recipe " + config.value("recipe", "published") +
-                    ", seed " + config.at("seed").dump() +
+                    ", seed " + range_of("seed") +
                     ".\nEvery pixel is computed; none comes from a recording.\n\n"
                     "`config.json` decides every byte; image i depends on it and on i alone. "
                     "`sha256sum -c SHA256SUMS`\nchecks the tables, `generate_dataset ... --verify` each file.\n";

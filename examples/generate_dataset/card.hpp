@@ -21,6 +21,8 @@ class data_card {
     struct column {
         std::uint64_t count = 0;
         double lowest = 0, highest = 0, sum = 0;
+        json first;
+        bool is_constant = true;
         std::map<std::string, std::uint64_t> words;  ///< counts of the first 50 distinct values
     };
     std::uint64_t images_ = 0, bytes_ = 0, files_ = 0;

@@ -16,14 +16,11 @@ fs::path open_folder(const std::string& out) {
     std::error_code failed;
     fs::create_directories(root, failed);
     if (failed) throw insonify::io_error(out + ": can't make this folder: " + failed.message() + "; name another one");
-    // Leftovers of a run that was killed before it wrote config.json; older versions left `config.json.tmp0`.
     std::string foreign;
     for (const auto& entry : fs::directory_iterator(root)) {
         const std::string name = entry.path().filename().string();
-        if (name.starts_with("config.json.tmp"))
-            fs::remove(entry.path(), failed);
-        else if (name != ".lock" && name != ".partial" && !name.starts_with(".nfs"))
-            foreign = name;
+        // A run that was killed before it wrote config.json leaves these.
+        if (name != ".lock" && name != ".partial" && !name.starts_with(".nfs")) foreign = name;
     }
     // Checked in this order, since another process may start the set in between.
     if (!foreign.empty() && !fs::exists(root / "config.json"))

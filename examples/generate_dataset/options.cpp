@@ -13,6 +13,12 @@
 
 namespace generator {
 
+void take_mode_defaults(options& o) {
+    if (!o.given.contains("--chip")) o.chip = o.is_overhead() ? 0 : 5;
+    if (!o.given.contains("--altitude")) o.altitude = o.is_overhead() ? range{3.5, 5} : range{3, 10};
+    if (!o.given.contains("--noise")) o.noise = {o.is_overhead() ? "speckle:0.1" : "seabed"};
+}
+
 std::vector<noise_step> noise_steps(const options& o) {
     std::vector<noise_step> steps;
     for (const std::string& text : o.noise)
@@ -72,9 +78,14 @@ void check_recipe(const options& o, const is_given& given) {
             throw CLI::ValidationError("--targets", "'" + target + "' belongs to --recipe sonar");
 }
 
-/// Refuses options of the other modes of recipe published. Lines of a plan may have any mode.
+/// Whether every image is of `--mode`: the lines of a plan may each have their own.
+bool has_one_mode(const options& o) {
+    return !o.is_sonar() && !(o.table && o.table->has("mode"));
+}
+
+/// Refuses options of the other modes of recipe published.
 void check_mode(const options& o, const is_given& given) {
-    if (o.is_sonar() || (o.table && o.table->has("mode"))) return;
+    if (!has_one_mode(o)) return;
     const std::string reason = "has no effect in --mode " + o.mode + "; it needs ";
     if (o.is_overhead())
         refuse_options(given, {"--distance", "--beam"}, reason + "a side-scan mode, such as --mode slant_range");
@@ -84,7 +95,7 @@ void check_mode(const options& o, const is_given& given) {
 
 /// Refuses options of displays that are not used: overhead images have none, and only one in decibels has a range.
 void check_display(const options& o, const is_given& given) {
-    if (!o.is_sonar() && o.is_overhead())
+    if (has_one_mode(o) && o.is_overhead())
         refuse_options(given, {"--display", "--white", "--display-range"},
                        "needs a side-scan mode, such as --mode slant_range");
     const bool has_range = o.display == "decibels" || (o.display.empty() && o.is_sonar()) || o.table;
@@ -289,14 +300,14 @@ options parsed(int argc, const char* const* argv,
             if (!given("--size")) o.size = 128;
             if (!given("--targets")) o.targets = {"ship", "plane"};
         }
+        for (const char* const name : {"--chip", "--altitude", "--noise"})
+            if (given(name)) o.given.insert(name);
+        if (!o.is_sonar()) take_mode_defaults(o);
         if (!o.is_sonar() && !o.is_overhead()) {
             if (!given("--size")) o.size = 128;
-            if (!given("--chip")) o.chip = 5;
             if (o.chip == 0)
                 throw CLI::ValidationError("--chip", "'0' must be above 0 in --mode " + o.mode +
                                                          ": metres a side; only --mode overhead has a field of view");
-            if (!given("--noise")) o.noise = {"seabed"};
-            o.altitude = {3, 10};
         }
         if (o.demo && !given("--count")) o.count = 24;
         if (o.demo && !given("--noise") && o.is_overhead()) o.noise = {"speckle:0.05"};
@@ -324,7 +335,7 @@ options parsed(int argc, const char* const* argv,
         check_mode(o, given);
         check_display(o, given);
         for (const noise_step& step : noise_steps(o))
-            if (step.kind == "seabed" && o.is_overhead())
+            if (step.kind == "seabed" && has_one_mode(o) && o.is_overhead())
                 throw CLI::ValidationError("--noise", "'seabed' needs a side-scan mode, such as --mode slant_range");
         check_classes(o);
         check_counts(o);

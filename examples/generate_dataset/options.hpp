@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,7 @@ struct options {
     std::string mode = "overhead";
     double chip = 0;  ///< metres a side; 0: the field of view
     range altitude{3.5, 5}, grazing{6, 6}, distance{2, 9}, beam{0.2, 0.5};
+    std::set<std::string> given;  ///< of --chip, --altitude and --noise: the mode decides the others
     double reflectivity = 0.9, intensity = 4, sky = 0.05;
     std::vector<std::string> references;
     std::string match = "masked";
@@ -71,6 +73,9 @@ struct noise_step {
     std::string kind;
     double strength;
 };
+
+/// Sets what the mode decides: chip, altitude and noise, where they are not given.
+void take_mode_defaults(options& o);
 
 /// The noise chain of valid options.
 std::vector<noise_step> noise_steps(const options& o);

@@ -92,23 +92,22 @@ options with_line(const options& o, const plan_row& row) {
         row.refuse(column, "one of " + list);
     };
     one_of("mode", own.mode, {"overhead", "ground_range", "slant_range"});
+    take_mode_defaults(own);
     one_of("match", own.match, {"masked", "whole"});
     one_of("colormap", own.colormap, {"gray", "copper"});
-    own.chip = row.number("chip_m", o.chip, 0, 1e4);
+    own.chip = row.number("chip_m", own.chip, 0, 1e4);
     if (!own.is_overhead() && !(own.chip > 0)) row.refuse("chip_m", "metres a side, for a sonar's mode");
     own.reflectivity = row.number("reflectivity", o.reflectivity, 0, 1e6);
     own.intensity = row.number("intensity", o.intensity, 0, 1e6);
     own.sky = row.number("sky", o.sky, 0, 1e6);
-    if (const std::string* const noise = row.find("noise")) {
-        own.noise = CLI::detail::split(*noise, ',');
-        try {
-            for (const noise_step& step : noise_steps(own))
-                if (step.kind == "seabed" && own.is_overhead()) row.refuse("noise", "a chain without seabed");
-        } catch (const CLI::ValidationError&) {
-            row.refuse("noise", std::string("none, or a chain of speckle:VARIANCE, gaussian:VARIANCE, poisson:PHOTONS, "
-                                            "rayleigh") +
-                                    (own.is_overhead() ? "" : ", seabed"));
-        }
+    if (const std::string* const noise = row.find("noise")) own.noise = CLI::detail::split(*noise, ',');
+    try {
+        for (const noise_step& step : noise_steps(own))
+            if (step.kind == "seabed" && own.is_overhead()) row.refuse("noise", "a chain without seabed");
+    } catch (const CLI::ValidationError&) {
+        row.refuse("noise", std::string("none, or a chain of speckle:VARIANCE, gaussian:VARIANCE, poisson:PHOTONS, "
+                                        "rayleigh") +
+                                (own.is_overhead() ? "" : ", seabed"));
     }
     // Input files are read once, so these options must be the same for all images.
     if (!o.heightmap.empty()) {

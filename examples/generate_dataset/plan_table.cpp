@@ -164,12 +164,12 @@ void plan_table::add_classes(const plan_row& row) {
             classes_.push_back(name);
     };
     const std::string* const categories = row.find("categories");
-    if (categories == nullptr) return add(row.cells.at("class"));
-    for (std::string_view list = *categories; !list.empty();) {
+    for (std::string_view list = categories == nullptr ? std::string_view() : *categories; !list.empty();) {
         const std::size_t end = (std::min)(list.find(';'), list.size());
         add(std::string(list.substr(0, end)));
         list.remove_prefix((std::min)(end + 1, list.size()));
     }
+    add(row.cells.at("class"));  // which the list may lack if the line was edited
 }
 
 plan_row plan_table::row(std::size_t i) const {

@@ -135,6 +135,50 @@ class Plans(unittest.TestCase):
             self.assertEqual(digest(shards), digest(again))
             self.assertIn("0 faults", run("--out", shards, "--plan", self.table(text.getvalue()), "--verify"))
 
+    def test_a_class_that_an_edited_line_brings_is_a_category(self):
+        for recipe, before, after in ("published", "cylinder", "sphere"), ("sonar", "ship", "crate"):
+            first, again = self.folder / recipe, self.folder / (recipe + "_again")
+            run("--out", first, "--recipe", recipe, "--targets", before, "--count", 2, "--size", 32)
+            text = (first / "manifest.csv").read_text().replace(f",{before},", f",{after},", 1)
+            text = text.replace(f",{before},", f",{after},") if recipe == "sonar" else text
+            text = text.replace(f"{after};clutter", f"{before};shadow;clutter")
+            run("--out", again, "--plan", self.table(text))
+            names = [c["name"] for c in json.loads((again / "annotations.json").read_text())["categories"]]
+            self.assertIn(after, names)
+            self.assertEqual(len(names), len(set(names)))
+
+    def test_a_line_without_a_seabed_has_that_of_the_set_without_a_plan(self):
+        run("--out", self.folder / "a", "--recipe", "published", "--count", 12, "--size", 32)
+        seabeds = {row["index"]: row["seabed"] for row in manifest(self.folder / "a")}
+        run("--out", self.folder / "b", "--recipe", "published", "--size", 32, "--plan",
+            self.table("index,class\n2,cube\n5,cube\n9,cube\n"))
+        self.assertEqual([row["seabed"] for row in manifest(self.folder / "b")], [seabeds[i] for i in ("2", "5", "9")])
+
+    def test_each_line_has_the_defaults_of_its_own_mode(self):
+        for modes in ("slant_range", "overhead"), ("overhead", "ground_range"):
+            out = self.folder / modes[0]
+            lines = "".join(f"{i},cube,mud,{mode}\n" for i, mode in enumerate(modes * 3))
+            run("--out", out, "--recipe", "published", "--size", 32, "--display", "power", "--plan",
+                self.table("index,class,seabed,mode\n" + lines))
+            self.replay_of(out)
+            for row in manifest(out):
+                is_overhead = row["mode"] == "overhead"
+                self.assertEqual(row["noise"], "speckle:0.1" if is_overhead else "seabed")
+                self.assertEqual(float(row["chip_m"]), 0 if is_overhead else 5)
+                self.assertTrue((3.5 if is_overhead else 3) <= float(row["altitude_m"]) <= (5 if is_overhead else 10))
+                self.assertEqual(row["display"], "" if is_overhead else "power")
+        self.assertIn("line 2: column noise has '', expected a chain without seabed", refusal(
+            "--out", self.folder / "x", "--recipe", "published", "--noise", "seabed", "--plan",
+            self.table("index,class,mode\n0,cube,overhead\n1,cube,slant_range\n")))
+
+    def test_the_data_card_has_the_sizes_and_seeds_of_the_lines(self):
+        run("--out", self.folder / "a", "--recipe", "published", "--count", 2, "--size", 32, "--seed", 7)
+        said = run("--out", self.folder / "b", "--plan", self.folder / "a/manifest.csv")
+        card = (self.folder / "b/README.md").read_text()
+        for text in said, card:
+            self.assertIn("2 images of 32 x 32 pixels", text)
+            self.assertIn("seed 7", text)
+
     def test_a_given_value_does_not_change_others(self):
         out = ["--recipe", "sonar", "--count", 4, "--size", 32, "--visible-share", 0]
         run("--out", self.folder / "a", *out)
@@ -143,8 +187,8 @@ class Plans(unittest.TestCase):
         run("--out", self.folder / "b", "--plan", self.table(text), "--size", 32, "--visible-share", 0)
         for before, after in zip(rows, manifest(self.folder / "b")):
             self.assertEqual(after["looks"], "3")
-            for column in "chip_m", "sonar", "altitude_m", "bottom_seed", "white", "turn", "t1_length_m":
-                self.assertEqual(before.get(column), after.get(column), column)
+            for column in "chip_m", "sonar", "altitude_m", "seabed_seed", "white", "turn", "t1_length_m":
+                self.assertEqual(before[column], after[column], column)
 
     def test_a_given_range_decides_noise_beam_and_grain(self):
         pictures = set()

@@ -102,8 +102,8 @@ std::string differing_parameters(const json& record, const json& config) {
 std::optional<std::string> fault_of(const fs::path& root, std::uint64_t index, const json& config, depth checked) {
     const std::string name = record_path(index);
     const std::string path = (root / name).string();
-    if (!fs::exists(path)) return name + ": is missing";
     try {
+        if (!fs::exists(path)) return name + ": is missing";
         const json record = parse_record(insonify::read_file(path), name);
         if (record.at("id") != index) return name + ": is the record of image " + record.at("id").dump();
         if (const std::string other = differing_parameters(record, config); !other.empty())

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "pictures.hpp"
+#include "plan_options.hpp"
 #include "views.hpp"
 
 namespace generator {
@@ -75,9 +76,10 @@ image_cost measured_cost(const options& o, const index_range& work, const shared
 }
 
 std::string summary_of(const options& o, const index_range& work, const image_cost& cost, int threads) {
-    const std::string side = std::to_string(o.size);
+    const options first = o.table ? with_line(o, line_of_plan(o, work.first)) : o;
+    const std::string side = std::to_string(first.size);
     std::string text = o.out + ": " + std::to_string(work.size()) + " images of " + side + " x " + side +
-                       " pixels, recipe " + o.recipe + ", seed " + std::to_string(o.seed);
+                       " pixels, recipe " + o.recipe + ", seed " + std::to_string(first.seed);
     if (work.first > 0) text += ", from index " + std::to_string(work.first) + " on";
     text += "\n  classes: " + classes_text(o, work) + "\n";
     if (cost.images == 0) return text;

@@ -551,7 +551,7 @@ class Generator(unittest.TestCase):
         refused("--distance: 1000 times an --altitude", *out, "--mode", "slant_range", "--distance", 1000, "--altitude",
                 "1000")
         refused("appears twice", *out, "--targets", "cylinder,cylinder,cube")
-        for taken in "shadow", "cylinder", "Cube":
+        for taken in "shadow", "empty", "cylinder", "Cube":
             refused(f"the class {taken} is taken", *out, "--mesh", f"{taken}=f.obj")
         refused("the class wreck is taken", *out, "--mesh", "wreck=f.obj", "--mesh", "wreck=g.obj")
         for name in 'a,b', 'a"b', "a/b", "", "..", "a b":
@@ -716,12 +716,12 @@ class Generator(unittest.TestCase):
 
     def test_a_folder_whose_first_run_was_killed_early_is_accepted(self):
         run("--out", self.folder / "whole", *SMALL)
-        for leftover in "config.json.tmp0", ".partial/all/somewhere-1-0":
-            out = self.folder / leftover.replace("/", "_")
-            (out / leftover).parent.mkdir(parents=True)
-            (out / leftover).write_text("{")
-            run("--out", out, *SMALL)
-            self.assertEqual(digest(self.folder / "whole"), digest(out))
+        out = self.folder / "killed"
+        leftover = out / ".partial/all/somewhere-1-0"
+        leftover.parent.mkdir(parents=True)
+        leftover.write_text("{")
+        run("--out", out, *SMALL)
+        self.assertEqual(digest(self.folder / "whole"), digest(out))
 
     def test_a_run_repairs_damaged_files(self):
         out, chance = self.folder / "a", random.Random(3)

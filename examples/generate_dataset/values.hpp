@@ -53,7 +53,7 @@ inline void check_classes(const options& o) {
         return text;
     };
     std::vector<std::string> taken = primitive_names();
-    taken.push_back("shadow");
+    taken.insert(taken.end(), {"empty", "shadow"});
     for (std::size_t i = 0; i < o.targets.size(); ++i)
         if (std::count(o.targets.begin(), o.targets.end(), o.targets[i]) > 1)
             throw CLI::ValidationError("--targets", "'" + o.targets[i] + "' appears twice; name each class once");

@@ -42,7 +42,7 @@ inline std::vector<std::string> category_names(const options& o) {
     const auto add = [&](const std::string& name) {
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     };
-    std::erase(names, "empty");
+    for (const char* const reserved : {"empty", "shadow"}) std::erase(names, reserved);
     for (const class_count& c : class_counts(o))
         if (c.name != "empty") add(c.name);
     if (o.is_sonar()) add("clutter");
@@ -99,8 +99,10 @@ inline view_of_target view_of(const options& o, std::uint64_t i) {
     const auto seabed = [&](std::uint64_t n) {
         return o.seabeds.empty() ? std::string() : o.seabeds[static_cast<std::size_t>(n % seabeds)];
     };
-    if (o.table) return {"", seabed(i / aspects), "", o.table->has_ids() ? std::nullopt : aspect(i)};
     const std::vector<std::string> classes = class_names(o);
+    if (o.table && o.table->has_ids())
+        return {"", seabed(turn_at(o, classes, image_id(o, i)).previous_images), "", std::nullopt};
+    if (o.table) return {"", seabed(i / aspects), "", aspect(i)};
     const std::uint64_t scene = o.demo ? i % (classes.size() * seabeds) : i;
     const auto [class_index, previous] = turn_at(o, classes, scene);
     view_of_target v{classes[class_index], seabed(previous), "", aspect(previous / seabeds)};

@@ -43,7 +43,8 @@ options parse(int argc, char** argv) {
         "ping_simulator"};
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     app.add_option("--out", o.out, "Folder for images/<class>/<index>.png and manifest.csv; created if missing")
-        ->required();
+        ->required()
+        ->check(examples::folder_to_fill());
     app.add_option("--counts", o.counts, "Number of cylinders, cubes and spheres (308,88,66)")
         ->delimiter(',')
         ->check(CLI::Range(0, 1'000'000));

@@ -28,7 +28,9 @@ options parse(int argc, char** argv) {
         "tests it on pictures of the same recipe and on those of an independent simulator. See tools/recognize.",
         "recognize"};
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    app.add_option("--out", o.out, "Folder for report.md and confusion.svg; created if missing")->required();
+    app.add_option("--out", o.out, "Folder for report.md and confusion.svg; created if missing")
+        ->required()
+        ->check(examples::folder_to_fill());
     app.add_option("--test", o.test, "The simulator's test set: images/<class>/*.png")->required();
     app.add_option("--own", o.own, "Another set of the simulator, which trains the upper bound `ceiling`");
     app.add_option("--references", o.references,
@@ -45,6 +47,7 @@ options parse(int argc, char** argv) {
     app.add_option("--synthetic-test", o.synthetic,
                    "Test pictures of each class by a recipe itself; a third of the published numbers (206,191,193)")
         ->delimiter(',')
+        ->check(examples::whole_number(1, 1'000'000))
         ->expected(static_cast<int>(classes.size()));
     app.add_option("--threads", o.threads,
                    "Number of threads, 0 for one per hardware thread (0); does not change the figures");

@@ -1,4 +1,5 @@
 // recognize_real: trains on a generated set, tests on real side-scan images. See --help and tools/recognize --real DIR.
+#include "../common/option_values.hpp"
 #include "../common/refusal.hpp"
 #include "real_report.hpp"
 #include <CLI/CLI.hpp>
@@ -22,11 +23,13 @@ options parse(int argc, char** argv) {
         "recognize_real"};
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     app.add_option("--out", o.out, "Folder for real.md, roc.svg, curves.svg and three.svg; created if missing")
-        ->required();
+        ->required()
+        ->check(examples::folder_to_fill());
     app.add_option("--real", o.real, "Folder with plane/, ship/ and seafloor/")->required();
     app.add_option("--generated", o.generated, "Set of generate_dataset with the classes plane, ship and empty");
     app.add_option("--counts", o.counts, "Numbers of real training images, half of them bare (0,20,80,320)")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->check(examples::whole_number(0, 1'000'000));
     app.add_option("--seeds", o.seeds, "Number of random splits of the real images (10)")->check(CLI::Range(1, 1000));
     app.add_option("--threads", o.threads,
                    "Number of threads, 0 for one per hardware thread (0); does not change the figures");

@@ -57,7 +57,7 @@ struct division {
     }
 };
 
-/// Real chips are repeated up to the number of generated ones, ten times at max_real.
+/// Real chips are repeated up to the number of generated ones, ten times at most.
 inline int repeats_of(std::size_t real, std::size_t generated) {
     return real == 0 || generated == 0 ? 1 : static_cast<int>(std::clamp<std::size_t>(generated / real, 1, 10));
 }

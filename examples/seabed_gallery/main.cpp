@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include "../common/pictures.hpp"
 #include "../common/scale_bar.hpp"
@@ -93,9 +94,9 @@ void describe(const char* name, const char* view, const in::image<float>& pictur
                 t.skewness, t.across, t.along, t.contrast, t.homogeneity, t.slope, t.direction, t.anisotropy);
 }
 
-void paste(in::image<float>& sheet, int left, int top, const in::image<float>& tile, int from_x, int from_y) {
+void paste(in::image<float>& sheet, int left, int top, const in::image<float>& tile) {
     for (int y = 0; y < tile_height; ++y)
-        std::copy_n(tile.row(from_y + y).begin() + from_x, tile_width, sheet.row(top + y).begin() + left);
+        std::copy_n(tile.row(y).begin(), tile_width, sheet.row(top + y).begin() + left);
 }
 
 }  // namespace
@@ -107,10 +108,8 @@ int main(int argc, char** argv) try {
     in::thread_pool pool;
     const std::vector<entry> all = entries();
     const auto real_path = [&](const entry& e) {
-        const std::string path = folder + "/" + (e.real != nullptr ? e.real : "");
-        std::FILE* const there = e.real != nullptr ? std::fopen(path.c_str(), "rb") : nullptr;
-        if (there != nullptr) std::fclose(there);
-        return there != nullptr ? path : std::string();
+        const std::string path = e.real != nullptr ? folder + "/" + e.real : "";
+        return std::filesystem::exists(path) ? path : std::string();
     };
     const bool has_real = std::any_of(all.begin(), all.end(), [&](const entry& e) { return !real_path(e).empty(); });
     const int columns = has_real ? 4 : 3;
@@ -124,7 +123,7 @@ int main(int argc, char** argv) try {
         int left = gap;
         for (const int degrees : grazing_angles) {
             const in::image<float> tile = shown(tile_of(e.seabed, e.cell, degrees, pool));
-            paste(sheet, left, top, tile, 0, 0);
+            paste(sheet, left, top, tile);
             const std::string view = std::to_string(degrees) + " deg";
             describe(e.name, view.c_str(), tile);
             examples::write_text(sheet, left + 2, top + tile_height + 3, std::string(e.name) + ", " + view, 1.0f);
@@ -134,10 +133,8 @@ int main(int argc, char** argv) try {
         }
         if (const std::string path = real_path(e); !path.empty()) {
             const in::image<float> real = examples::read_gray(path);
-            in::image<float> cut(tile_width, tile_height);
-            for (int y = 0; y < tile_height; ++y)
-                std::copy_n(real.row(e.top + y).begin() + e.left, tile_width, cut.row(y).begin());
-            paste(sheet, left, top, cut, 0, 0);
+            const in::image<float> cut(real.view().part(e.left, e.top, tile_width, tile_height));
+            paste(sheet, left, top, cut);
             describe(e.real, "real", cut);
             examples::write_text(sheet, left + 2, top + tile_height + 3, "real: SASSED, NSWC Panama City", 1.0f);
         }

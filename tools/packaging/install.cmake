@@ -13,6 +13,7 @@ install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 # The package does not depend on the architecture. While the major version is 0, a minor version may break.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/insonifyConfigVersion.cmake COMPATIBILITY SameMinorVersion
                                  ARCH_INDEPENDENT)
+cmake_path(ABSOLUTE_PATH CMAKE_INSTALL_INCLUDEDIR BASE_DIRECTORY [[${prefix}]] OUTPUT_VARIABLE INSONIFY_PC_INCLUDEDIR)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/insonify.pc.in ${PROJECT_BINARY_DIR}/insonify.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_LIST_DIR}/insonifyConfig.cmake ${CMAKE_CURRENT_LIST_DIR}/find_glm.cmake ${CMAKE_CURRENT_LIST_DIR}/compiled.cmake
               ${PROJECT_BINARY_DIR}/insonifyConfigVersion.cmake DESTINATION ${package_dir})
