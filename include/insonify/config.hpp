@@ -1,7 +1,9 @@
 // Policy macros. A program may define any of the following before its first include of the library. Units may differ in
-// them: docs/compile_cost.md says how they mix.
+// them, except that those of equal flags share one INSONIFY_ASSERT and one INSONIFY_THROW: docs/compile_cost.md says
+// how they mix.
 //
 //     INSONIFY_SIMD           1 (default where the compiler has vector extensions) or 0: everything scalar, same bytes
+//     INSONIFY_WHOLE_KERNELS  1 (default with optimization) or 0: see below
 //     INSONIFY_ASSERT(x)      internal invariants; default: assert(x)
 //     INSONIFY_THROW(e)       how an error leaves the library when exceptions are off; must not return
 //     INSONIFY_COMPILED       the compiled form (see compiled.hpp): this unit declares what one unit compiles
@@ -53,14 +55,10 @@
 // g++'s note on the ABI of wide vectors, which are passed only within always-inlined code, and g++ 11's false warnings
 // of vectors that are filled lane by lane.
 #if defined(__clang__) && !defined(__x86_64__) && !defined(__i386__)
-// clang has float_control on x86 alone. WebAssembly has no fused instruction.
-#if defined(__wasm__)
-#define INSONIFY_ARITHMETIC_BEGIN
-#define INSONIFY_ARITHMETIC_END
-#else
+// clang has float_control on x86 alone: elsewhere contraction stays off to the end of the unit, which may have asked
+// for that.
 #define INSONIFY_ARITHMETIC_BEGIN _Pragma("clang fp contract(off)")
-#define INSONIFY_ARITHMETIC_END _Pragma("clang fp contract(on)")
-#endif
+#define INSONIFY_ARITHMETIC_END
 #elif defined(__clang__)
 #define INSONIFY_ARITHMETIC_BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)")
 #define INSONIFY_ARITHMETIC_END _Pragma("float_control(pop)")
@@ -112,7 +110,7 @@
 #define INSONIFY_DISPATCH 0
 #endif
 
-// INSONIFY_WHOLE_KERNELS, which a program may define: with 1, all calls of a kernel are inlined into one function. With
+// INSONIFY_WHOLE_KERNELS: with 1, all calls of a kernel are inlined into one function. With
 // 0, programs compile a little faster and run several times longer, with the same bytes. The default is 0 without
 // optimization and under sanitizers, whose instrumentation would take minutes to compile.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -35,9 +35,11 @@
 
 // ------------ insonify/config.hpp -----------------------------------------------------------------------
 // Policy macros. A program may define any of the following before its first include of the library. Units may differ in
-// them: docs/compile_cost.md says how they mix.
+// them, except that those of equal flags share one INSONIFY_ASSERT and one INSONIFY_THROW: docs/compile_cost.md says
+// how they mix.
 //
 //     INSONIFY_SIMD           1 (default where the compiler has vector extensions) or 0: everything scalar, same bytes
+//     INSONIFY_WHOLE_KERNELS  1 (default with optimization) or 0: see below
 //     INSONIFY_ASSERT(x)      internal invariants; default: assert(x)
 //     INSONIFY_THROW(e)       how an error leaves the library when exceptions are off; must not return
 //     INSONIFY_COMPILED       the compiled form (see compiled.hpp): this unit declares what one unit compiles
@@ -86,14 +88,10 @@
 // g++'s note on the ABI of wide vectors, which are passed only within always-inlined code, and g++ 11's false warnings
 // of vectors that are filled lane by lane.
 #if defined(__clang__) && !defined(__x86_64__) && !defined(__i386__)
-// clang has float_control on x86 alone. WebAssembly has no fused instruction.
-#if defined(__wasm__)
-#define INSONIFY_ARITHMETIC_BEGIN
-#define INSONIFY_ARITHMETIC_END
-#else
+// clang has float_control on x86 alone: elsewhere contraction stays off to the end of the unit, which may have asked
+// for that.
 #define INSONIFY_ARITHMETIC_BEGIN _Pragma("clang fp contract(off)")
-#define INSONIFY_ARITHMETIC_END _Pragma("clang fp contract(on)")
-#endif
+#define INSONIFY_ARITHMETIC_END
 #elif defined(__clang__)
 #define INSONIFY_ARITHMETIC_BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)")
 #define INSONIFY_ARITHMETIC_END _Pragma("float_control(pop)")
@@ -145,7 +143,7 @@
 #define INSONIFY_DISPATCH 0
 #endif
 
-// INSONIFY_WHOLE_KERNELS, which a program may define: with 1, all calls of a kernel are inlined into one function. With
+// INSONIFY_WHOLE_KERNELS: with 1, all calls of a kernel are inlined into one function. With
 // 0, programs compile a little faster and run several times longer, with the same bytes. The default is 0 without
 // optimization and under sanitizers, whose instrumentation would take minutes to compile.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -439,40 +437,30 @@ constexpr To bit_cast(const From& from) noexcept {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Outcome of parsing a number.
-enum class number_text { fine, malformed, out_of_range };
-
-/// Reads all of a text as a decimal number, with a sign or without, whatever the locale.
-inline number_text parse_number(std::string_view text, double& value) {
+/// Reads all of a text as a decimal number, with a sign or without, whatever the locale. Numbers beyond those of a
+/// double become 0 or infinite.
+/// @returns whether the text is a number
+inline bool parse_number(std::string_view text, double& value) {
     // from_chars does not accept a plus sign.
     if (text.substr(0, 1) == "+" && text.substr(1, 1) != "-") text.remove_prefix(1);
-    const char *const first = text.data(), *const last = first + text.size();
 #if defined(__cpp_lib_to_chars)
-    const auto [end, status] = std::from_chars(first, last, value);
-    if (status == std::errc::invalid_argument || end != last) return number_text::malformed;
-    return status == std::errc{} ? number_text::fine : number_text::out_of_range;
+    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (status == std::errc::invalid_argument || end != text.data() + text.size()) return false;
+    if (status == std::errc::result_out_of_range) {
+        const bool is_tiny = text.find("e-") != text.npos || text.find("E-") != text.npos;
+        value = is_tiny ? 0 : (text[0] == '-' ? -1 : 1) * std::numeric_limits<double>::infinity();
+    }
+    return true;
 #else
     // strtod also takes white space and hexadecimal numbers, and expects the locale's decimal point.
-    const auto is_taken = [](char c) {
-        return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e' || c == 'E';
-    };
-    std::string copy;
-    for (const char* c = first; c != last; ++c) {
-        const bool is_word = text.find_first_of("nN") != text.npos && *c != 'x' && *c != 'X' && *c > ' ';  // inf, nan
-        if (!is_taken(*c) && !is_word) return number_text::malformed;
-        if (*c == '.')
-            copy += std::localeconv()->decimal_point;
-        else
-            copy += *c;
-    }
-    if (copy.empty() || copy[0] == '+') return number_text::malformed;
+    if (text.empty() || text[0] == '+' || text.find_first_not_of("0123456789.+-eEinfatyINFATY") != text.npos)
+        return false;
+    std::string copy(text);
+    if (const std::size_t point = copy.find('.'); point != copy.npos)
+        copy.replace(point, 1, std::localeconv()->decimal_point);
     char* end = nullptr;
     value = std::strtod(copy.c_str(), &end);
-    if (end != copy.c_str() + copy.size()) return number_text::malformed;
-    const bool names_infinity = text.find_first_of("iI") != text.npos;
-    const bool overflowed =
-        (value > (std::numeric_limits<double>::max)() || value < std::numeric_limits<double>::lowest());
-    return overflowed && !names_infinity ? number_text::out_of_range : number_text::fine;
+    return end == copy.c_str() + copy.size();
 #endif
 }
 
@@ -785,9 +773,8 @@ class memory_block {
             is_pooled() ? pool_->allocate(bytes_) : ::operator new (bytes_, std::align_val_t{block_pool::alignment});
     }
     INSONIFY_MEMBER memory_block(memory_block&& other) noexcept { swap(other); }
-    INSONIFY_MEMBER memory_block& operator=(memory_block&& other) noexcept {
-        memory_block taken = std::move(other);
-        taken.swap(*this);
+    INSONIFY_MEMBER memory_block& operator=(memory_block other) noexcept {
+        swap(other);
         return *this;
     }
     INSONIFY_TAGGED ~memory_block() {
@@ -837,12 +824,8 @@ class uninitialized_array {
     }
     INSONIFY_MEMBER uninitialized_array(uninitialized_array&& other) noexcept { swap(other); }
     /// If allocation fails, the array is unchanged.
-    INSONIFY_TAGGED uninitialized_array& operator=(const uninitialized_array& other) {
-        if (this != &other) *this = uninitialized_array(other);
-        return *this;
-    }
-    INSONIFY_MEMBER uninitialized_array& operator=(uninitialized_array&& other) noexcept {
-        uninitialized_array(std::move(other)).swap(*this);
+    INSONIFY_MEMBER uninitialized_array& operator=(uninitialized_array other) noexcept {
+        swap(other);
         return *this;
     }
     INSONIFY_MEMBER ~uninitialized_array() { std::destroy_n(data(), size_); }
@@ -1024,15 +1007,9 @@ class image {
         : width_(std::exchange(other.width_, 0)),
           height_(std::exchange(other.height_, 0)),
           pixels_(std::move(other.pixels_)) {}
-    INSONIFY_MEMBER image& operator=(image&& other) noexcept {
+    /// If allocation fails, the image is unchanged. One that is moved from is empty afterwards.
+    INSONIFY_MEMBER image& operator=(image other) noexcept {
         pixels_ = std::move(other.pixels_);
-        width_ = std::exchange(other.width_, 0);
-        height_ = std::exchange(other.height_, 0);
-        return *this;
-    }
-    /// If allocation fails, the image is unchanged.
-    image& operator=(const image& other) {
-        pixels_ = other.pixels_;
         width_ = other.width_, height_ = other.height_;
         return *this;
     }
@@ -2316,23 +2293,17 @@ INSONIFY_INLINE void store_draws(float* into, const lanes<float, N> (&draw)[4]) 
     }
 }
 
-/// Words as whole numbers from -2^31 to 2^31 - 1, rounded to floats.
-template <int N>
-INSONIFY_INLINE void signed_float(lanes<float, N>& into, const lanes<std::uint32_t, N>& bits) {
-    convert(into, lanes<std::int32_t, N>(bits));
-}
-
 /// Uniform in [-1, 1], symmetric to 2^-32.
 template <int N>
 INSONIFY_INLINE void symmetric_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
-    signed_float<N>(into, word ^ std::uint32_t{0x80000000u});
+    convert(into, lanes<std::int32_t, N>(word ^ std::uint32_t{0x80000000u}));
     into = into * 0x1p-31f;
 }
 
 /// Uniform in (0, 1]: 31 bits, rounded to 24.
 template <int N>
 INSONIFY_INLINE void unit_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
-    signed_float<N>(into, word >> 1);
+    convert(into, lanes<std::int32_t, N>(word >> 1));
     into = (into + 0.5f) * 0x1p-31f;
 }
 
@@ -2358,19 +2329,13 @@ INSONIFY_INLINE void log_uniform_lanes(lanes<float, N>& into, const lanes<std::u
     log_lanes<N>(into, k, floats(shifted >= 0 ? 0.0f - from_end : m - 1.0f));
 }
 
-/// sqrt(-2 ln u) of a uniform number: 0 to 6.76.
-template <int N>
-INSONIFY_INLINE void radius_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
-    log_uniform_lanes<N>(into, word);
-    square_root<N>(into, -2.0f * into);
-}
-
 /// Two independent standard normal draws of two words, as normal_pair's.
 template <int N>
 INSONIFY_INLINE void normal_lanes(lanes<float, N>& first, lanes<float, N>& second, const lanes<std::uint32_t, N>& a,
                                   const lanes<std::uint32_t, N>& b) {
     lanes<float, N> radius;
-    radius_lanes<N>(radius, a);
+    log_uniform_lanes<N>(radius, a);
+    square_root<N>(radius, -2.0f * radius);
     cos_sin_turns<N>(first, second, b);
     first = radius * first;
     second = radius * second;
@@ -2539,10 +2504,6 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Pixel types of images: not void, and not bool, whose vector has no addressable elements.
-template <class T>
-concept storable = std::movable<T> && !std::same_as<T, bool>;
-
 /// Calls fn(pixel, x, y) if fn takes a position, fn(pixel) otherwise.
 template <class Fn, class Pixel>
     requires(std::invocable<Fn&, const Pixel&, int, int>)
@@ -2560,7 +2521,7 @@ INSONIFY_INLINE auto call_pixel(Fn& fn, const Pixel& pixel, int, int) {
 /// A function of a pixel, or of a pixel with its column and row, that returns a pixel.
 template <class Fn, class Pixel>
 concept pixel_function = requires(Fn& fn, const Pixel& pixel) {
-    { detail::call_pixel(fn, pixel, 0, 0) } -> detail::storable;
+    { detail::call_pixel(fn, pixel, 0, 0) } -> std::movable;
 };
 
 /// Column and row of an image's first pixel in a larger image, for filters that depend on the position. Within 2^30.
@@ -3232,15 +3193,13 @@ INSONIFY_INLINE void clip_lanes(lanes<float, N>& value) {
     value = value > 1.0f ? lanes<float, N>{} + 1.0f : value;
 }
 
-/// Channel types that noise applies to: floats in [0, 1] and codes. Pixels are channels or colours of them.
-template <class T>
-concept noise_channel = std::same_as<T, float> || pixel_code<T>;
+/// Pixel types that noise applies to: floats in [0, 1], codes, and colours of them.
 template <class T>
 inline constexpr bool is_noise_color = false;
-template <noise_channel T>
+template <countable_pixel T>
 inline constexpr bool is_noise_color<rgb<T>> = true;
 template <class T>
-concept noise_pixel = noise_channel<T> || is_noise_color<T>;
+concept noise_pixel = countable_pixel<T> || is_noise_color<T>;
 
 inline void to_floats(const float* from, float* to, int count, std::size_t step) {
     for (int i = 0; i < count; ++i) to[i] = from[static_cast<std::size_t>(i) * step];
@@ -3283,7 +3242,7 @@ class noise_pass {
     int rows_above() const { return detail::rows_above(law_); }
 
   private:
-    template <noise_channel Channel>
+    template <countable_pixel Channel>
     void channel(const Channel* from, Channel* to, std::size_t step, const noise_run& run) {
         float values[run_length];
         to_floats(from, values, run.count, step);
@@ -3430,8 +3389,8 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// @throws invalid_input for a map of another size than the area
 inline void check_size(const std::string& name, int width, int height, const pixel_area& area) {
-    require_equal("width of the map for " + name, width, area.width, "that of the image");
-    require_equal("height of the map for " + name, height, area.height, "that of the image");
+    require_equal("width of the " + name, width, area.width, "that of the image");
+    require_equal("height of the " + name, height, area.height, "that of the image");
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -3469,9 +3428,9 @@ class parameter {
     INSONIFY_TAGGED void prepare(const std::string& name, const pixel_area& area) {
         x_ = area.x, y_ = area.y;
         if (by_type_)
-            detail::check_size(name, types_.width(), types_.height(), area);
+            detail::check_size("map for " + name, types_.width(), types_.height(), area);
         else if (!is_constant())
-            detail::check_size(name, map_.width(), map_.height(), area);
+            detail::check_size("map for " + name, map_.width(), map_.height(), area);
     }
 
     /// Writes the numbers of `count` pixels of a row, the first at (x, y), to `buffer`.
@@ -3583,7 +3542,7 @@ class correlated_draws {
             if (s.x == run.x && s.count == run.count && s.field == field && s.channel == run.channel) return s;
         }
         for (strip& s : strips_)
-            if (s.field == field && s.channel == run.channel && s.y > run.y) {  // of a column that is finished
+            if (s.field == field && s.channel == run.channel && s.y >= run.y) {  // of a column that is finished
                 s.x = run.x, s.count = run.count, s.filled = false;
                 return s;
             }
@@ -4517,22 +4476,22 @@ inline namespace INSONIFY_FLAGS {
 /// MATLAB's imhist. Pixels are floats in [0, 1], of which NaN is not counted, or codes that mean code / 255 or / 65535.
 /// @throws invalid_input for bins outside 2 to 65536
 template <class Viewed, executor_argument E = serial_executor>
-    requires countable_pixel<std::remove_const_t<Viewed>> histogram histogram_of(image_view<Viewed> pixels,
-                                                                                 int bins = 256, E&& ex = {}) {
-        using Pixel = std::remove_const_t<Viewed>;
-        detail::require_bins("bins", bins);
-        const image_view<const Pixel> source = pixels;
-        constexpr bool narrow = std::same_as<Pixel, std::uint8_t>, wide = std::same_as<Pixel, std::uint16_t>;
-        if constexpr (!wide) {
-            if (bins == 256)
-                return {detail::count_bands(source, bins, ex, [] { return detail::code_counter<std::uint8_t>(); })};
-        }
-        if constexpr (!narrow) {
-            if (bins == 65536)
-                return {detail::count_bands(source, bins, ex, [] { return detail::code_counter<std::uint16_t>(); })};
-        }
-        return {detail::count_bands(source, bins, ex, [bins] { return detail::bin_counter<Pixel>(bins); })};
+    requires(countable_pixel<std::remove_const_t<Viewed>>)
+histogram histogram_of(image_view<Viewed> pixels, int bins = 256, E&& ex = {}) {
+    using Pixel = std::remove_const_t<Viewed>;
+    detail::require_bins("bins", bins);
+    const image_view<const Pixel> source = pixels;
+    constexpr bool narrow = std::same_as<Pixel, std::uint8_t>, wide = std::same_as<Pixel, std::uint16_t>;
+    if constexpr (!wide) {
+        if (bins == 256)
+            return {detail::count_bands(source, bins, ex, [] { return detail::code_counter<std::uint8_t>(); })};
     }
+    if constexpr (!narrow) {
+        if (bins == 65536)
+            return {detail::count_bands(source, bins, ex, [] { return detail::code_counter<std::uint16_t>(); })};
+    }
+    return {detail::count_bands(source, bins, ex, [bins] { return detail::bin_counter<Pixel>(bins); })};
+}
 /// The same for an image.
 template <countable_pixel Pixel, executor_argument E = serial_executor>
 histogram histogram_of(const image<Pixel>& source, int bins = 256, E&& ex = {}) {
@@ -4565,8 +4524,8 @@ class match_binned {
 
     /// @throws invalid_input for a reference that is empty or all NaN, or bins outside 2 to 65536
     template <class Pixel>
-    requires countable_pixel<std::remove_const_t<Pixel>> INSONIFY_MEMBER explicit match_binned(
-        image_view<Pixel> reference, int bins = 64)
+        requires(countable_pixel<std::remove_const_t<Pixel>>)
+    INSONIFY_MEMBER explicit match_binned(image_view<Pixel> reference, int bins = 64)
         : match_binned(histogram_of(reference, bins)) {}
     template <countable_pixel Pixel>
     INSONIFY_MEMBER explicit match_binned(const image<Pixel>& reference, int bins = 64)
@@ -4714,19 +4673,19 @@ inline namespace INSONIFY_FLAGS {
 
 /// Distribution of codes; values are code / 255 or code / 65535.
 template <class Viewed, executor_argument E = serial_executor>
-    requires pixel_code<std::remove_const_t<Viewed>> distribution distribution_of(image_view<Viewed> source,
-                                                                                  E&& ex = {}) {
-        using Code = std::remove_const_t<Viewed>;
-        const histogram codes = histogram_of(source, (std::numeric_limits<Code>::max)() + 1, ex);
-        distribution result;
-        std::uint64_t up_to = 0;
-        for (std::size_t code = 0; code < codes.counts.size(); ++code) {
-            if (codes.counts[code] == 0) continue;
-            result.values.push_back(dequantize(static_cast<Code>(code)));
-            result.cumulative.push_back(up_to += codes.counts[code]);
-        }
-        return result;
+    requires(pixel_code<std::remove_const_t<Viewed>>)
+distribution distribution_of(image_view<Viewed> source, E&& ex = {}) {
+    using Code = std::remove_const_t<Viewed>;
+    const histogram codes = histogram_of(source, (std::numeric_limits<Code>::max)() + 1, ex);
+    distribution result;
+    std::uint64_t up_to = 0;
+    for (std::size_t code = 0; code < codes.counts.size(); ++code) {
+        if (codes.counts[code] == 0) continue;
+        result.values.push_back(dequantize(static_cast<Code>(code)));
+        result.cumulative.push_back(up_to += codes.counts[code]);
     }
+    return result;
+}
 /// The same for an image.
 template <countable_pixel Pixel>
 distribution distribution_of(const image<Pixel>& source) {
@@ -4829,8 +4788,8 @@ class match_histogram {
 
     /// @throws invalid_input for a reference without a finite pixel
     template <class Pixel>
-    requires countable_pixel<std::remove_const_t<Pixel>> INSONIFY_MEMBER explicit match_histogram(
-        image_view<Pixel> reference)
+        requires(countable_pixel<std::remove_const_t<Pixel>>)
+    INSONIFY_MEMBER explicit match_histogram(image_view<Pixel> reference)
         : match_histogram(distribution_of(reference)) {}
     template <countable_pixel Pixel>
     INSONIFY_MEMBER explicit match_histogram(const image<Pixel>& reference) : match_histogram(reference.view()) {}
@@ -5304,7 +5263,8 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
     using pixel = pass_result<Pass, typename std::remove_cvref_t<Source>::value_type>;
     constexpr bool clean = std::is_same_v<Pass, untouched>;
     if constexpr (image_filter<F, pixel>) {
-        if constexpr (clean && std::is_invocable_v<const F&, Source>) {
+        if constexpr (clean && std::conjunction_v<std::is_same<std::remove_cvref_t<Source>, image<pixel>>,
+                                                  std::is_invocable<const F&, Source>>) {
             return run_stages(stage(std::forward<Source>(source)), untouched{}, run, rest...);
         } else {
             return run_stages(stage(materialize(std::forward<Source>(source), pass, run.ex, run.origin)), untouched{},
@@ -5523,7 +5483,7 @@ class masked_pass {
         for (int i = 0; i < count; ++i) to[i] = chosen[i] != 0 ? changed[i] : from[i];
     }
     void prepare(const pixel_area& area) {
-        check_size("where", mask_.width(), mask_.height(), area);
+        check_size("mask", mask_.width(), mask_.height(), area);
         x_ = area.x, y_ = area.y;
         prepare_pass(pass_, area);
     }
@@ -5544,7 +5504,7 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input for a mask of another size
 template <class Pixel>
 image<std::remove_const_t<Pixel>> pixels_where(image_view<const std::uint8_t> mask, image_view<Pixel> source) {
-    detail::check_size("where", mask.width(), mask.height(), {0, 0, source.width(), source.height()});
+    detail::check_size("mask", mask.width(), mask.height(), {0, 0, source.width(), source.height()});
     int count = 0;
     for (int y = 0; y < mask.height(); ++y)
         for (const std::uint8_t chosen : mask.row(y)) count += chosen != 0 ? 1 : 0;
@@ -5583,7 +5543,7 @@ struct where_filter {
 };
 
 /// Applies a filter where `mask` is not 0; the other pixels are unchanged. Measured filters measure the masked pixels
-/// alone. A mask of zeros leaves the image unchanged.
+/// alone, so their masks don't nest: pass one mask that combines them. A mask of zeros leaves the image unchanged.
 ///
 ///     image | where(is_seabed, match_histogram(pixels_where(reference_mask, reference)))
 ///
@@ -7570,7 +7530,7 @@ inline bool sync_to_disk(std::FILE* stream) {
 inline bool is_special(const std::string& path) {
 #if defined(__unix__) || defined(__APPLE__)
     struct stat found;
-    return ::lstat(path.c_str(), &found) == 0 && !S_ISREG(found.st_mode) && !S_ISLNK(found.st_mode);
+    return ::stat(path.c_str(), &found) == 0 && !S_ISREG(found.st_mode);
 #else
     static_cast<void>(path);
     return false;
@@ -7625,7 +7585,8 @@ inline std::string read_file(const std::string& path) {
 /// path do not collide; the last to commit wins. Names of more than 240 bytes are cut, as many file systems hold 255.
 class replacement_file {
   public:
-    /// @throws io_error if no file can be created in the folder of `path`, or `path` is a device, a pipe or a folder
+    /// @throws io_error if no file can be created in the folder of `path`, or `path` is a device, a pipe, a folder
+    /// or a link to one
     explicit replacement_file(std::string path) : path_(std::move(path)) {
         if (path_.find('\0') != std::string::npos)
             detail::raise_io(path_.c_str(), "can't open for writing: a zero byte in its name");
@@ -7710,7 +7671,7 @@ class netpbm_reader {
         if (is_float()) {
             const std::string_view text = token("scale");
             double scale = 0;
-            if (parse_number(text, scale) != number_text::fine || !(scale < 0 || scale > 0))
+            if (!parse_number(text, scale) || !(scale < 0 || scale > 0))
                 fail("scale is " + quoted(text) + ", expected a number other than 0");
             little_endian_ = scale < 0;
         } else {
@@ -7923,24 +7884,25 @@ image<Pixel> read_netpbm(const std::string& path) {
 /// The bytes of a binary netpbm file with this image: PGM, PPM or PFM by the pixel type.
 /// @throws invalid_input for an image without pixels, which the formats cannot store
 template <class Pixel>
-    requires storable_pixel<std::remove_const_t<Pixel>> std::string format_netpbm(image_view<Pixel> source) {
-        using stored = detail::netpbm_pixel<std::remove_const_t<Pixel>>;
-        using sample = typename stored::sample;
-        constexpr bool gray = stored::channels == 1;
-        constexpr bool floats = std::same_as<sample, float>;
-        detail::require(!source.empty(), "pixels of the image", source.size(), "at least 1");
-        std::string bytes = floats ? (gray ? "Pf" : "PF") : (gray ? "P5" : "P6");
-        bytes += '\n' + detail::to_text(source.width()) + ' ' + detail::to_text(source.height()) + '\n';
-        if constexpr (floats)
-            bytes += "-1.0\n";
-        else
-            bytes += detail::to_text((std::numeric_limits<sample>::max)()) + '\n';
-        bytes.reserve(bytes.size() + source.size() * sizeof(Pixel));
-        for (int row = 0; row < source.height(); ++row)
-            for (const Pixel& pixel : source.row(floats ? source.height() - 1 - row : row))
-                detail::append_sample(bytes, pixel);
-        return bytes;
-    }
+    requires(storable_pixel<std::remove_const_t<Pixel>>)
+std::string format_netpbm(image_view<Pixel> source) {
+    using stored = detail::netpbm_pixel<std::remove_const_t<Pixel>>;
+    using sample = typename stored::sample;
+    constexpr bool gray = stored::channels == 1;
+    constexpr bool floats = std::same_as<sample, float>;
+    detail::require(!source.empty(), "pixels of the image", source.size(), "at least 1");
+    std::string bytes = floats ? (gray ? "Pf" : "PF") : (gray ? "P5" : "P6");
+    bytes += '\n' + detail::to_text(source.width()) + ' ' + detail::to_text(source.height()) + '\n';
+    if constexpr (floats)
+        bytes += "-1.0\n";
+    else
+        bytes += detail::to_text((std::numeric_limits<sample>::max)()) + '\n';
+    bytes.reserve(bytes.size() + source.size() * sizeof(Pixel));
+    for (int row = 0; row < source.height(); ++row)
+        for (const Pixel& pixel : source.row(floats ? source.height() - 1 - row : row))
+            detail::append_sample(bytes, pixel);
+    return bytes;
+}
 
 /// The same for an image.
 template <storable_pixel Pixel>
@@ -7951,7 +7913,7 @@ std::string format_netpbm(const image<Pixel>& source) {
 /// Writes PGM, PPM or PFM by the pixel type, all or nothing.
 /// @throws invalid_input for an image without pixels; io_error, naming the file, if it can't be written
 template <class Pixel>
-    requires storable_pixel<std::remove_const_t<Pixel>>
+    requires(storable_pixel<std::remove_const_t<Pixel>>)
 void write_netpbm(const std::string& path, image_view<Pixel> source) {
     write_file(path, format_netpbm(source));
 }
@@ -20049,10 +20011,9 @@ class obj_reader {
     /// The number less an origin, rounded once.
     float parsed(std::string_view digits, double origin = 0) const {
         double value = 0;
-        const number_text found = parse_number(digits, value);
-        if (found == number_text::malformed) fail(quoted(digits) + " is not a number");
+        if (!parse_number(digits, value)) fail(quoted(digits) + " is not a number");
         constexpr auto limit = static_cast<double>((std::numeric_limits<float>::max)());
-        if (found != number_text::fine || !(value >= -limit && value <= limit))
+        if (!(value >= -limit && value <= limit))
             fail(quoted(digits) + " is not a finite number that a float can hold");
         return static_cast<float>(value - origin);
     }
@@ -22724,16 +22685,10 @@ class survey_reader {
     double number(std::string_view digits, const char* what) const {
         if (digits.empty())
             fail((at_ < text_.size() ? "the line ends before " : "the text ends before ") + std::string(what));
-        using insonify::detail::number_text;
         double value = 0;
-        const number_text read = insonify::detail::parse_number(digits, value);
-        if (read == number_text::malformed)
+        if (!insonify::detail::parse_number(digits, value))
             fail(insonify::detail::quoted(digits) + " is not a number, expected " + what);
-        if (read == number_text::fine) return value;
-        // The largest double in too few digits is a usual mark of missing data.
-        const bool is_tiny = digits.find("e-") != digits.npos || digits.find("E-") != digits.npos;
-        const double infinity = std::numeric_limits<double>::infinity();
-        return is_tiny ? 0 : digits[0] == '-' ? -infinity : infinity;
+        return value;  // often infinite: the largest double in too few digits marks missing data
     }
     double finite(const char* what) {
         const double value = number(what);

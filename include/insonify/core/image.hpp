@@ -67,15 +67,9 @@ class image {
         : width_(std::exchange(other.width_, 0)),
           height_(std::exchange(other.height_, 0)),
           pixels_(std::move(other.pixels_)) {}
-    INSONIFY_MEMBER image& operator=(image&& other) noexcept {
+    /// If allocation fails, the image is unchanged. One that is moved from is empty afterwards.
+    INSONIFY_MEMBER image& operator=(image other) noexcept {
         pixels_ = std::move(other.pixels_);
-        width_ = std::exchange(other.width_, 0);
-        height_ = std::exchange(other.height_, 0);
-        return *this;
-    }
-    /// If allocation fails, the image is unchanged.
-    image& operator=(const image& other) {
-        pixels_ = other.pixels_;
         width_ = other.width_, height_ = other.height_;
         return *this;
     }

@@ -26,10 +26,6 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Pixel types of images: not void, and not bool, whose vector has no addressable elements.
-template <class T>
-concept storable = std::movable<T> && !std::same_as<T, bool>;
-
 /// Calls fn(pixel, x, y) if fn takes a position, fn(pixel) otherwise.
 template <class Fn, class Pixel>
     requires(std::invocable<Fn&, const Pixel&, int, int>)
@@ -47,7 +43,7 @@ INSONIFY_INLINE auto call_pixel(Fn& fn, const Pixel& pixel, int, int) {
 /// A function of a pixel, or of a pixel with its column and row, that returns a pixel.
 template <class Fn, class Pixel>
 concept pixel_function = requires(Fn& fn, const Pixel& pixel) {
-    { detail::call_pixel(fn, pixel, 0, 0) } -> detail::storable;
+    { detail::call_pixel(fn, pixel, 0, 0) } -> std::movable;
 };
 
 /// Column and row of an image's first pixel in a larger image, for filters that depend on the position. Within 2^30.

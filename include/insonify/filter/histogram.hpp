@@ -59,22 +59,22 @@ inline namespace INSONIFY_FLAGS {
 /// MATLAB's imhist. Pixels are floats in [0, 1], of which NaN is not counted, or codes that mean code / 255 or / 65535.
 /// @throws invalid_input for bins outside 2 to 65536
 template <class Viewed, executor_argument E = serial_executor>
-    requires countable_pixel<std::remove_const_t<Viewed>> histogram histogram_of(image_view<Viewed> pixels,
-                                                                                 int bins = 256, E&& ex = {}) {
-        using Pixel = std::remove_const_t<Viewed>;
-        detail::require_bins("bins", bins);
-        const image_view<const Pixel> source = pixels;
-        constexpr bool narrow = std::same_as<Pixel, std::uint8_t>, wide = std::same_as<Pixel, std::uint16_t>;
-        if constexpr (!wide) {
-            if (bins == 256)
-                return {detail::count_bands(source, bins, ex, [] { return detail::code_counter<std::uint8_t>(); })};
-        }
-        if constexpr (!narrow) {
-            if (bins == 65536)
-                return {detail::count_bands(source, bins, ex, [] { return detail::code_counter<std::uint16_t>(); })};
-        }
-        return {detail::count_bands(source, bins, ex, [bins] { return detail::bin_counter<Pixel>(bins); })};
+    requires(countable_pixel<std::remove_const_t<Viewed>>)
+histogram histogram_of(image_view<Viewed> pixels, int bins = 256, E&& ex = {}) {
+    using Pixel = std::remove_const_t<Viewed>;
+    detail::require_bins("bins", bins);
+    const image_view<const Pixel> source = pixels;
+    constexpr bool narrow = std::same_as<Pixel, std::uint8_t>, wide = std::same_as<Pixel, std::uint16_t>;
+    if constexpr (!wide) {
+        if (bins == 256)
+            return {detail::count_bands(source, bins, ex, [] { return detail::code_counter<std::uint8_t>(); })};
     }
+    if constexpr (!narrow) {
+        if (bins == 65536)
+            return {detail::count_bands(source, bins, ex, [] { return detail::code_counter<std::uint16_t>(); })};
+    }
+    return {detail::count_bands(source, bins, ex, [bins] { return detail::bin_counter<Pixel>(bins); })};
+}
 /// The same for an image.
 template <countable_pixel Pixel, executor_argument E = serial_executor>
 histogram histogram_of(const image<Pixel>& source, int bins = 256, E&& ex = {}) {
@@ -107,8 +107,8 @@ class match_binned {
 
     /// @throws invalid_input for a reference that is empty or all NaN, or bins outside 2 to 65536
     template <class Pixel>
-    requires countable_pixel<std::remove_const_t<Pixel>> INSONIFY_MEMBER explicit match_binned(
-        image_view<Pixel> reference, int bins = 64)
+        requires(countable_pixel<std::remove_const_t<Pixel>>)
+    INSONIFY_MEMBER explicit match_binned(image_view<Pixel> reference, int bins = 64)
         : match_binned(histogram_of(reference, bins)) {}
     template <countable_pixel Pixel>
     INSONIFY_MEMBER explicit match_binned(const image<Pixel>& reference, int bins = 64)

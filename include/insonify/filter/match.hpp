@@ -64,19 +64,19 @@ inline namespace INSONIFY_FLAGS {
 
 /// Distribution of codes; values are code / 255 or code / 65535.
 template <class Viewed, executor_argument E = serial_executor>
-    requires pixel_code<std::remove_const_t<Viewed>> distribution distribution_of(image_view<Viewed> source,
-                                                                                  E&& ex = {}) {
-        using Code = std::remove_const_t<Viewed>;
-        const histogram codes = histogram_of(source, (std::numeric_limits<Code>::max)() + 1, ex);
-        distribution result;
-        std::uint64_t up_to = 0;
-        for (std::size_t code = 0; code < codes.counts.size(); ++code) {
-            if (codes.counts[code] == 0) continue;
-            result.values.push_back(dequantize(static_cast<Code>(code)));
-            result.cumulative.push_back(up_to += codes.counts[code]);
-        }
-        return result;
+    requires(pixel_code<std::remove_const_t<Viewed>>)
+distribution distribution_of(image_view<Viewed> source, E&& ex = {}) {
+    using Code = std::remove_const_t<Viewed>;
+    const histogram codes = histogram_of(source, (std::numeric_limits<Code>::max)() + 1, ex);
+    distribution result;
+    std::uint64_t up_to = 0;
+    for (std::size_t code = 0; code < codes.counts.size(); ++code) {
+        if (codes.counts[code] == 0) continue;
+        result.values.push_back(dequantize(static_cast<Code>(code)));
+        result.cumulative.push_back(up_to += codes.counts[code]);
     }
+    return result;
+}
 /// The same for an image.
 template <countable_pixel Pixel>
 distribution distribution_of(const image<Pixel>& source) {
@@ -179,8 +179,8 @@ class match_histogram {
 
     /// @throws invalid_input for a reference without a finite pixel
     template <class Pixel>
-    requires countable_pixel<std::remove_const_t<Pixel>> INSONIFY_MEMBER explicit match_histogram(
-        image_view<Pixel> reference)
+        requires(countable_pixel<std::remove_const_t<Pixel>>)
+    INSONIFY_MEMBER explicit match_histogram(image_view<Pixel> reference)
         : match_histogram(distribution_of(reference)) {}
     template <countable_pixel Pixel>
     INSONIFY_MEMBER explicit match_histogram(const image<Pixel>& reference) : match_histogram(reference.view()) {}

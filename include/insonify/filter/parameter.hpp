@@ -21,8 +21,8 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// @throws invalid_input for a map of another size than the area
 inline void check_size(const std::string& name, int width, int height, const pixel_area& area) {
-    require_equal("width of the map for " + name, width, area.width, "that of the image");
-    require_equal("height of the map for " + name, height, area.height, "that of the image");
+    require_equal("width of the " + name, width, area.width, "that of the image");
+    require_equal("height of the " + name, height, area.height, "that of the image");
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -60,9 +60,9 @@ class parameter {
     INSONIFY_TAGGED void prepare(const std::string& name, const pixel_area& area) {
         x_ = area.x, y_ = area.y;
         if (by_type_)
-            detail::check_size(name, types_.width(), types_.height(), area);
+            detail::check_size("map for " + name, types_.width(), types_.height(), area);
         else if (!is_constant())
-            detail::check_size(name, map_.width(), map_.height(), area);
+            detail::check_size("map for " + name, map_.width(), map_.height(), area);
     }
 
     /// Writes the numbers of `count` pixels of a row, the first at (x, y), to `buffer`.

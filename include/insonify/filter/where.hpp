@@ -29,7 +29,7 @@ class masked_pass {
         for (int i = 0; i < count; ++i) to[i] = chosen[i] != 0 ? changed[i] : from[i];
     }
     void prepare(const pixel_area& area) {
-        check_size("where", mask_.width(), mask_.height(), area);
+        check_size("mask", mask_.width(), mask_.height(), area);
         x_ = area.x, y_ = area.y;
         prepare_pass(pass_, area);
     }
@@ -50,7 +50,7 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input for a mask of another size
 template <class Pixel>
 image<std::remove_const_t<Pixel>> pixels_where(image_view<const std::uint8_t> mask, image_view<Pixel> source) {
-    detail::check_size("where", mask.width(), mask.height(), {0, 0, source.width(), source.height()});
+    detail::check_size("mask", mask.width(), mask.height(), {0, 0, source.width(), source.height()});
     int count = 0;
     for (int y = 0; y < mask.height(); ++y)
         for (const std::uint8_t chosen : mask.row(y)) count += chosen != 0 ? 1 : 0;
@@ -89,7 +89,7 @@ struct where_filter {
 };
 
 /// Applies a filter where `mask` is not 0; the other pixels are unchanged. Measured filters measure the masked pixels
-/// alone. A mask of zeros leaves the image unchanged.
+/// alone, so their masks don't nest: pass one mask that combines them. A mask of zeros leaves the image unchanged.
 ///
 ///     image | where(is_seabed, match_histogram(pixels_where(reference_mask, reference)))
 ///

@@ -156,10 +156,9 @@ class obj_reader {
     /// The number less an origin, rounded once.
     float parsed(std::string_view digits, double origin = 0) const {
         double value = 0;
-        const number_text found = parse_number(digits, value);
-        if (found == number_text::malformed) fail(quoted(digits) + " is not a number");
+        if (!parse_number(digits, value)) fail(quoted(digits) + " is not a number");
         constexpr auto limit = static_cast<double>((std::numeric_limits<float>::max)());
-        if (found != number_text::fine || !(value >= -limit && value <= limit))
+        if (!(value >= -limit && value <= limit))
             fail(quoted(digits) + " is not a finite number that a float can hold");
         return static_cast<float>(value - origin);
     }

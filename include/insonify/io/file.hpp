@@ -39,7 +39,7 @@ inline bool sync_to_disk(std::FILE* stream) {
 inline bool is_special(const std::string& path) {
 #if defined(__unix__) || defined(__APPLE__)
     struct stat found;
-    return ::lstat(path.c_str(), &found) == 0 && !S_ISREG(found.st_mode) && !S_ISLNK(found.st_mode);
+    return ::stat(path.c_str(), &found) == 0 && !S_ISREG(found.st_mode);
 #else
     static_cast<void>(path);
     return false;
@@ -94,7 +94,8 @@ inline std::string read_file(const std::string& path) {
 /// path do not collide; the last to commit wins. Names of more than 240 bytes are cut, as many file systems hold 255.
 class replacement_file {
   public:
-    /// @throws io_error if no file can be created in the folder of `path`, or `path` is a device, a pipe or a folder
+    /// @throws io_error if no file can be created in the folder of `path`, or `path` is a device, a pipe, a folder
+    /// or a link to one
     explicit replacement_file(std::string path) : path_(std::move(path)) {
         if (path_.find('\0') != std::string::npos)
             detail::raise_io(path_.c_str(), "can't open for writing: a zero byte in its name");

@@ -114,24 +114,25 @@ image<Pixel> read_netpbm(const std::string& path) {
 /// The bytes of a binary netpbm file with this image: PGM, PPM or PFM by the pixel type.
 /// @throws invalid_input for an image without pixels, which the formats cannot store
 template <class Pixel>
-    requires storable_pixel<std::remove_const_t<Pixel>> std::string format_netpbm(image_view<Pixel> source) {
-        using stored = detail::netpbm_pixel<std::remove_const_t<Pixel>>;
-        using sample = typename stored::sample;
-        constexpr bool gray = stored::channels == 1;
-        constexpr bool floats = std::same_as<sample, float>;
-        detail::require(!source.empty(), "pixels of the image", source.size(), "at least 1");
-        std::string bytes = floats ? (gray ? "Pf" : "PF") : (gray ? "P5" : "P6");
-        bytes += '\n' + detail::to_text(source.width()) + ' ' + detail::to_text(source.height()) + '\n';
-        if constexpr (floats)
-            bytes += "-1.0\n";
-        else
-            bytes += detail::to_text((std::numeric_limits<sample>::max)()) + '\n';
-        bytes.reserve(bytes.size() + source.size() * sizeof(Pixel));
-        for (int row = 0; row < source.height(); ++row)
-            for (const Pixel& pixel : source.row(floats ? source.height() - 1 - row : row))
-                detail::append_sample(bytes, pixel);
-        return bytes;
-    }
+    requires(storable_pixel<std::remove_const_t<Pixel>>)
+std::string format_netpbm(image_view<Pixel> source) {
+    using stored = detail::netpbm_pixel<std::remove_const_t<Pixel>>;
+    using sample = typename stored::sample;
+    constexpr bool gray = stored::channels == 1;
+    constexpr bool floats = std::same_as<sample, float>;
+    detail::require(!source.empty(), "pixels of the image", source.size(), "at least 1");
+    std::string bytes = floats ? (gray ? "Pf" : "PF") : (gray ? "P5" : "P6");
+    bytes += '\n' + detail::to_text(source.width()) + ' ' + detail::to_text(source.height()) + '\n';
+    if constexpr (floats)
+        bytes += "-1.0\n";
+    else
+        bytes += detail::to_text((std::numeric_limits<sample>::max)()) + '\n';
+    bytes.reserve(bytes.size() + source.size() * sizeof(Pixel));
+    for (int row = 0; row < source.height(); ++row)
+        for (const Pixel& pixel : source.row(floats ? source.height() - 1 - row : row))
+            detail::append_sample(bytes, pixel);
+    return bytes;
+}
 
 /// The same for an image.
 template <storable_pixel Pixel>
@@ -142,7 +143,7 @@ std::string format_netpbm(const image<Pixel>& source) {
 /// Writes PGM, PPM or PFM by the pixel type, all or nothing.
 /// @throws invalid_input for an image without pixels; io_error, naming the file, if it can't be written
 template <class Pixel>
-    requires storable_pixel<std::remove_const_t<Pixel>>
+    requires(storable_pixel<std::remove_const_t<Pixel>>)
 void write_netpbm(const std::string& path, image_view<Pixel> source) {
     write_file(path, format_netpbm(source));
 }

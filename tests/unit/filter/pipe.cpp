@@ -209,9 +209,24 @@ TEST_CASE("Library filters compose with any callable, and reject pixel types the
     STATIC_REQUIRE_FALSE(in::filter_for<in::speckle, std::int8_t>);
     STATIC_REQUIRE_FALSE(in::filter_for<in::speckle, double>);
     STATIC_REQUIRE_FALSE(in::filter_for<in::speckle, in::rgb<double>>);
-    STATIC_REQUIRE_FALSE(in::filter_for<decltype([](float v) { return v > 0; }), float>);
     STATIC_REQUIRE_FALSE(in::filter_for<in::to_gray, float>);
     STATIC_REQUIRE_FALSE(in::filter_for<in::match_histogram, in::rgb8>);
+}
+
+TEST_CASE("A callable that takes any picture gets a copy, never the pixels of a view") {
+    in::image<float> source(3, 2, 0.5f);
+    const auto marked = [](auto picture) {
+        picture.pixels()[0] = 1;  // which views don't have
+        return picture;
+    };
+    for (const in::image<float>& result : {source | marked, source.view() | marked}) CHECK(result(0, 0) == 1);
+    CHECK(source == in::image<float>(3, 2, 0.5f));
+}
+
+TEST_CASE("A callable may return truth values") {
+    const in::image<bool> bright = in::image<float>{{0.2f, 0.7f}} | [](float v) { return v > 0.5f; };
+    CHECK_FALSE(bright(0, 0));
+    CHECK(bright(1, 0));
 }
 
 TEST_CASE("Quantization rounds to nearest, ties up, and has an exact inverse") {

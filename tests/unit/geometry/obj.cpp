@@ -212,6 +212,9 @@ TEST_CASE("Coordinates must be finite numbers that a float can hold") {
     CAPTURE(number);
     CHECK_THROWS_AS(in::read_obj("v 0 0 " + number), in::io_error);
     CHECK_THROWS_AS(in::read_obj("vn " + number + " 0 0\n"), in::io_error);
+    // Numbers too small for one are 0.
+    for (const char* const tiny : {"1e-46", "-1e-400", "1E-999"})
+        CHECK(in::read_obj("v 0 0 " + std::string(tiny) + "\nv 1 0 0\nv 0 1 0\nf 1 2 3").positions[0].z == 0);
 }
 
 TEST_CASE("An origin is subtracted from positions before they are rounded to float") {

@@ -108,17 +108,21 @@ TEST_CASE("A write that fails says why and leaves nothing behind") {
 }
 
 #if defined(__unix__)
-TEST_CASE("Pipes and folders are not replaced by files") {
+TEST_CASE("Pipes, folders and links to them are not replaced by files") {
     const scratch_folder folder;
     REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
-    CHECK_THROWS_WITH(in::write_file(folder / "pipe", "text"), ContainsSubstring("not a regular file"));
+    fs::create_symlink("pipe", folder.path / "link");
+    fs::create_directory_symlink(".", folder.path / "here");
+    for (const char* name : {"pipe", "link", "here"})
+        CHECK_THROWS_WITH(in::write_file(folder / name, "text"), ContainsSubstring("not a regular file"));
     CHECK(fs::is_fifo(folder.path / "pipe"));
+    CHECK(fs::is_symlink(folder.path / "link"));
     CHECK_THROWS_WITH(in::write_file(folder.path.string(), "text"), ContainsSubstring("not a regular file"));
     CHECK_THROWS_WITH(in::write_file(folder / "a" + '\0' + "b", "text"), ContainsSubstring("a zero byte in its name"));
     CHECK_THROWS_WITH(in::write_file("", "text"),
                       ContainsSubstring("a file with an empty name: can't open for writing"));
     CHECK_THROWS_WITH(in::read_file(""), ContainsSubstring("a file with an empty name: can't open for reading"));
-    CHECK(folder.names() == std::set<std::string>{"pipe"});
+    CHECK(folder.names() == std::set<std::string>{"here", "link", "pipe"});
 }
 
 TEST_CASE("A symbolic or hard link is replaced by the new file, and the file that it names stays") {

@@ -39,40 +39,30 @@ constexpr To bit_cast(const From& from) noexcept {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Outcome of parsing a number.
-enum class number_text { fine, malformed, out_of_range };
-
-/// Reads all of a text as a decimal number, with a sign or without, whatever the locale.
-inline number_text parse_number(std::string_view text, double& value) {
+/// Reads all of a text as a decimal number, with a sign or without, whatever the locale. Numbers beyond those of a
+/// double become 0 or infinite.
+/// @returns whether the text is a number
+inline bool parse_number(std::string_view text, double& value) {
     // from_chars does not accept a plus sign.
     if (text.substr(0, 1) == "+" && text.substr(1, 1) != "-") text.remove_prefix(1);
-    const char *const first = text.data(), *const last = first + text.size();
 #if defined(__cpp_lib_to_chars)
-    const auto [end, status] = std::from_chars(first, last, value);
-    if (status == std::errc::invalid_argument || end != last) return number_text::malformed;
-    return status == std::errc{} ? number_text::fine : number_text::out_of_range;
+    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (status == std::errc::invalid_argument || end != text.data() + text.size()) return false;
+    if (status == std::errc::result_out_of_range) {
+        const bool is_tiny = text.find("e-") != text.npos || text.find("E-") != text.npos;
+        value = is_tiny ? 0 : (text[0] == '-' ? -1 : 1) * std::numeric_limits<double>::infinity();
+    }
+    return true;
 #else
     // strtod also takes white space and hexadecimal numbers, and expects the locale's decimal point.
-    const auto is_taken = [](char c) {
-        return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e' || c == 'E';
-    };
-    std::string copy;
-    for (const char* c = first; c != last; ++c) {
-        const bool is_word = text.find_first_of("nN") != text.npos && *c != 'x' && *c != 'X' && *c > ' ';  // inf, nan
-        if (!is_taken(*c) && !is_word) return number_text::malformed;
-        if (*c == '.')
-            copy += std::localeconv()->decimal_point;
-        else
-            copy += *c;
-    }
-    if (copy.empty() || copy[0] == '+') return number_text::malformed;
+    if (text.empty() || text[0] == '+' || text.find_first_not_of("0123456789.+-eEinfatyINFATY") != text.npos)
+        return false;
+    std::string copy(text);
+    if (const std::size_t point = copy.find('.'); point != copy.npos)
+        copy.replace(point, 1, std::localeconv()->decimal_point);
     char* end = nullptr;
     value = std::strtod(copy.c_str(), &end);
-    if (end != copy.c_str() + copy.size()) return number_text::malformed;
-    const bool names_infinity = text.find_first_of("iI") != text.npos;
-    const bool overflowed =
-        (value > (std::numeric_limits<double>::max)() || value < std::numeric_limits<double>::lowest());
-    return overflowed && !names_infinity ? number_text::out_of_range : number_text::fine;
+    return end == copy.c_str() + copy.size();
 #endif
 }
 

@@ -30,9 +30,8 @@ class memory_block {
             is_pooled() ? pool_->allocate(bytes_) : ::operator new (bytes_, std::align_val_t{block_pool::alignment});
     }
     INSONIFY_MEMBER memory_block(memory_block&& other) noexcept { swap(other); }
-    INSONIFY_MEMBER memory_block& operator=(memory_block&& other) noexcept {
-        memory_block taken = std::move(other);
-        taken.swap(*this);
+    INSONIFY_MEMBER memory_block& operator=(memory_block other) noexcept {
+        swap(other);
         return *this;
     }
     INSONIFY_TAGGED ~memory_block() {
@@ -82,12 +81,8 @@ class uninitialized_array {
     }
     INSONIFY_MEMBER uninitialized_array(uninitialized_array&& other) noexcept { swap(other); }
     /// If allocation fails, the array is unchanged.
-    INSONIFY_TAGGED uninitialized_array& operator=(const uninitialized_array& other) {
-        if (this != &other) *this = uninitialized_array(other);
-        return *this;
-    }
-    INSONIFY_MEMBER uninitialized_array& operator=(uninitialized_array&& other) noexcept {
-        uninitialized_array(std::move(other)).swap(*this);
+    INSONIFY_MEMBER uninitialized_array& operator=(uninitialized_array other) noexcept {
+        swap(other);
         return *this;
     }
     INSONIFY_MEMBER ~uninitialized_array() { std::destroy_n(data(), size_); }

@@ -134,23 +134,17 @@ INSONIFY_INLINE void store_draws(float* into, const lanes<float, N> (&draw)[4]) 
     }
 }
 
-/// Words as whole numbers from -2^31 to 2^31 - 1, rounded to floats.
-template <int N>
-INSONIFY_INLINE void signed_float(lanes<float, N>& into, const lanes<std::uint32_t, N>& bits) {
-    convert(into, lanes<std::int32_t, N>(bits));
-}
-
 /// Uniform in [-1, 1], symmetric to 2^-32.
 template <int N>
 INSONIFY_INLINE void symmetric_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
-    signed_float<N>(into, word ^ std::uint32_t{0x80000000u});
+    convert(into, lanes<std::int32_t, N>(word ^ std::uint32_t{0x80000000u}));
     into = into * 0x1p-31f;
 }
 
 /// Uniform in (0, 1]: 31 bits, rounded to 24.
 template <int N>
 INSONIFY_INLINE void unit_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
-    signed_float<N>(into, word >> 1);
+    convert(into, lanes<std::int32_t, N>(word >> 1));
     into = (into + 0.5f) * 0x1p-31f;
 }
 
@@ -176,19 +170,13 @@ INSONIFY_INLINE void log_uniform_lanes(lanes<float, N>& into, const lanes<std::u
     log_lanes<N>(into, k, floats(shifted >= 0 ? 0.0f - from_end : m - 1.0f));
 }
 
-/// sqrt(-2 ln u) of a uniform number: 0 to 6.76.
-template <int N>
-INSONIFY_INLINE void radius_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
-    log_uniform_lanes<N>(into, word);
-    square_root<N>(into, -2.0f * into);
-}
-
 /// Two independent standard normal draws of two words, as normal_pair's.
 template <int N>
 INSONIFY_INLINE void normal_lanes(lanes<float, N>& first, lanes<float, N>& second, const lanes<std::uint32_t, N>& a,
                                   const lanes<std::uint32_t, N>& b) {
     lanes<float, N> radius;
-    radius_lanes<N>(radius, a);
+    log_uniform_lanes<N>(radius, a);
+    square_root<N>(radius, -2.0f * radius);
     cos_sin_turns<N>(first, second, b);
     first = radius * first;
     second = radius * second;

@@ -61,15 +61,13 @@ INSONIFY_INLINE void clip_lanes(lanes<float, N>& value) {
     value = value > 1.0f ? lanes<float, N>{} + 1.0f : value;
 }
 
-/// Channel types that noise applies to: floats in [0, 1] and codes. Pixels are channels or colours of them.
-template <class T>
-concept noise_channel = std::same_as<T, float> || pixel_code<T>;
+/// Pixel types that noise applies to: floats in [0, 1], codes, and colours of them.
 template <class T>
 inline constexpr bool is_noise_color = false;
-template <noise_channel T>
+template <countable_pixel T>
 inline constexpr bool is_noise_color<rgb<T>> = true;
 template <class T>
-concept noise_pixel = noise_channel<T> || is_noise_color<T>;
+concept noise_pixel = countable_pixel<T> || is_noise_color<T>;
 
 inline void to_floats(const float* from, float* to, int count, std::size_t step) {
     for (int i = 0; i < count; ++i) to[i] = from[static_cast<std::size_t>(i) * step];
@@ -112,7 +110,7 @@ class noise_pass {
     int rows_above() const { return detail::rows_above(law_); }
 
   private:
-    template <noise_channel Channel>
+    template <countable_pixel Channel>
     void channel(const Channel* from, Channel* to, std::size_t step, const noise_run& run) {
         float values[run_length];
         to_floats(from, values, run.count, step);

@@ -30,7 +30,7 @@ class netpbm_reader {
         if (is_float()) {
             const std::string_view text = token("scale");
             double scale = 0;
-            if (parse_number(text, scale) != number_text::fine || !(scale < 0 || scale > 0))
+            if (!parse_number(text, scale) || !(scale < 0 || scale > 0))
                 fail("scale is " + quoted(text) + ", expected a number other than 0");
             little_endian_ = scale < 0;
         } else {

@@ -67,16 +67,10 @@ class survey_reader {
     double number(std::string_view digits, const char* what) const {
         if (digits.empty())
             fail((at_ < text_.size() ? "the line ends before " : "the text ends before ") + std::string(what));
-        using insonify::detail::number_text;
         double value = 0;
-        const number_text read = insonify::detail::parse_number(digits, value);
-        if (read == number_text::malformed)
+        if (!insonify::detail::parse_number(digits, value))
             fail(insonify::detail::quoted(digits) + " is not a number, expected " + what);
-        if (read == number_text::fine) return value;
-        // The largest double in too few digits is a usual mark of missing data.
-        const bool is_tiny = digits.find("e-") != digits.npos || digits.find("E-") != digits.npos;
-        const double infinity = std::numeric_limits<double>::infinity();
-        return is_tiny ? 0 : digits[0] == '-' ? -infinity : infinity;
+        return value;  // often infinite: the largest double in too few digits marks missing data
     }
     double finite(const char* what) {
         const double value = number(what);
