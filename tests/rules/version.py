@@ -12,7 +12,7 @@ PLACES = {
     "CHANGELOG.md": r"^## \[([\d.]+)\]",
     "tools/packaging/debian/changelog": r"^insonify \((.*?)\)",
     "tools/packaging/vcpkg/insonify/vcpkg.json": r'"version": "(.*?)"',
-    "tools/packaging/conan/conanfile.py": r'version = "(.*?)"',
+    "tools/packaging/conan/conanfile.py": r'^    version = "(.*?)"',
 }
 faults = []
 for path, pattern in PLACES.items():
