@@ -8274,7 +8274,7 @@ struct height_range {
     double highest = -std::numeric_limits<double>::infinity();
 
     INSONIFY_MEMBER bool empty() const { return !(lowest <= highest); }
-    /// The range of models that do not state one. Overhead pictures refuse it.
+    /// The range of models that do not state one. Overhead pictures, `occlusion_of` and pitched pings refuse it.
     INSONIFY_MEMBER static constexpr height_range unlimited() {
         return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     }
@@ -11150,6 +11150,11 @@ inline void require_numbered_targets(const scene& s) {
     require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
 }
 
+/// @throws invalid_input for an instance that has no target
+inline void require_listed(const labels& l, const char* name, std::uint16_t instance) {
+    require(instance <= l.targets.size(), name, instance, "at most labels.targets.size()");
+}
+
 }  // namespace detail::inline INSONIFY_FLAGS
 
 /// Requests no labels: none are stored or computed.
@@ -11172,9 +11177,11 @@ INSONIFY_FUNCTION image<std::uint8_t> target_mask(const labels& l, std::uint16_t
 INSONIFY_FUNCTION image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance);
 
 /// The class of every pixel that shows a target.
+/// @throws invalid_input for an instance that is not listed
 INSONIFY_FUNCTION class_map classes_of(const labels& l);
 
 /// Sets the bounding boxes and areas of the listed targets from the images.
+/// @throws invalid_input for an instance that is not listed, or images of different sizes
 INSONIFY_FUNCTION void measure_targets(labels& l);
 
 #if INSONIFY_BODIES
@@ -11197,7 +11204,10 @@ INSONIFY_FUNCTION class_map classes_of(const labels& l) {
         class_of.push_back(static_cast<std::uint16_t>(known - map.names.begin() + 1));
         if (known == map.names.end()) map.names.push_back(t.class_name);
     }
-    map.classes = map_pixels(l.instance, [&](std::uint16_t instance) { return class_of[instance]; });
+    map.classes = map_pixels(l.instance, [&](std::uint16_t instance) {
+        detail::require_listed(l, "labels.instance", instance);
+        return class_of[instance];
+    });
     return map;
 }
 
@@ -11206,6 +11216,8 @@ INSONIFY_FUNCTION void measure_targets(labels& l) {
         if (area++ == 0) box = {x, y, x, y};
         box = {(std::min)(box.x0, x), (std::min)(box.y0, y), (std::max)(box.x1, x + 1), (std::max)(box.y1, y + 1)};
     };
+    detail::require_equal("labels.shadow.width()", l.shadow.width(), l.instance.width(), "that of labels.instance");
+    detail::require_equal("labels.shadow.height()", l.shadow.height(), l.instance.height(), "that of labels.instance");
     for (target_label& t : l.targets) t.area = t.shadow_area = 0, t.box = t.shadow_box = {};
     for (int y = 0; y < l.instance.height(); ++y) {
         const auto instances = l.instance.row(y), shadows = l.shadow.row(y);
@@ -11213,9 +11225,11 @@ INSONIFY_FUNCTION void measure_targets(labels& l) {
             const std::uint16_t instance = instances[static_cast<std::size_t>(x)],
                                 shadow = shadows[static_cast<std::size_t>(x)];
             if (instance != labels::no_instance) {
+                detail::require_listed(l, "labels.instance", instance);
                 target_label& t = l.targets[instance - 1u];
                 include(t.box, t.area, x, y);
             } else if (shadow != labels::is_lit && shadow != labels::by_seabed) {
+                detail::require_listed(l, "labels.shadow", shadow);
                 target_label& t = l.targets[shadow - 1u];
                 include(t.shadow_box, t.shadow_area, x, y);
             }
@@ -11280,7 +11294,7 @@ struct side_scan_rig {
     static constexpr across_track axis = Axis;
 
     glm::dvec2 position{0, 0};   ///< of the first ping over the datum, metres
-    float altitude = 5;          ///< above the datum, metres
+    float altitude = 5;          ///< above the datum, metres; default gains take the seabed to be there
     float yaw = 0;               ///< radians, as of a ping
     float ping_spacing = 0.04f;  ///< metres of track from one ping to the next, > 0
     int pings = 1024;            ///< 1 to 2^20
@@ -11409,7 +11423,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Counts of triangles and of samples. Range modes draw no triangles.
+/// Counts of triangles and of samples. Side-scan pictures draw no triangles.
 struct render_stats {
     draw_stats seabed, targets;
     int seabed_columns = 0, seabed_rows = 0;  ///< vertices sampled; the mesh may have fewer
@@ -11427,8 +11441,8 @@ struct ping_numbers {
 
 /// A picture and its ground truth.
 ///
-/// In overhead pictures up is forward, and pixels are in [0, 1]. In range modes row i is ping i, column j is bin j, and
-/// pixels are intensities, 0 and above; see sonar_equation.hpp for their unit.
+/// In overhead pictures up is forward, and pixels are in [0, 1]. In side-scan pictures row i is ping i, column j is bin
+/// j, and pixels are intensities, 0 and above; see sonar_equation.hpp for their unit.
 template <class Labels>  // labels, unless stated: see fwd.hpp
 struct frame {
     insonify::image<float> image;  ///< linear
@@ -17500,7 +17514,6 @@ struct drawn_object {
 struct shaded_images {
     image<float>& picture;
     undecided_light* undecided = nullptr;    ///< if there is a shadow policy
-    bool marks_dark = false;                 ///< pixels that the source cannot light are undecided too, for labels
     image<std::uint32_t>* ids = nullptr;     ///< the visibility buffer
     image<std::uint8_t>* types = nullptr;    ///< seabed::type, of bottoms of several types
     image<std::uint16_t>* shadow = nullptr;  ///< labels of known casters, as in labels::shadow
@@ -17590,7 +17603,8 @@ class surface_shader {
         using ints = lanes<std::int32_t, N>;
         using floats = lanes<float, N>;
         floats value = rest < 1.0f ? rest : floats{} + 1.0f;
-        ints undecided = into_.marks_dark ? ints{} - 1 : ints(direct > 0.0f), is_dark{};
+        // Labels need the casters of pixels that the source cannot light, too.
+        ints undecided = into_.shadow != nullptr ? ints{} - 1 : ints(direct > 0.0f), is_dark{};
         if (object_.known != nullptr) {
             ints known;
             gather<N>(known, [&](int k) { return static_cast<std::int32_t>(object_.known[f.triangles[k]]); });
@@ -17820,18 +17834,11 @@ struct view_from_object {
     }
 };
 
-/// A pixel whose point is looked for.
-struct shown_pixel {
-    std::uint16_t column, row;  ///< within the tile
-    std::uint32_t triangle;
-    float direct;  ///< see point_batch
-};
-
 /// Finds the points of some pixels of one object.
 struct point_kernel {
     const drawn_object& object;
     const view_from_object& from;
-    std::span<const shown_pixel> pixels;
+    std::span<const undecided_pixel> pixels;  ///< with the ids of triangles within the object
     bool has_near_light;
     bool includes_averted;
     const rect& box;      ///< the tile's pixels
@@ -17856,9 +17863,9 @@ struct point_kernel {
             const std::size_t first = (std::min)(i + static_cast<std::size_t>(rounds * N), pixels.size());
             return pixels.subspan(first, (std::min)(pixels.size() - first, std::size_t{N}));
         };
-        for (const shown_pixel& p : some(4)) prefetch(&m.triangles[p.triangle]);
-        for (const shown_pixel& p : some(2))
-            for (int k = 0; k < 3; ++k) prefetch(&m.positions[m.triangles[p.triangle][k]]);
+        for (const undecided_pixel& p : some(4)) prefetch(&m.triangles[p.id]);
+        for (const undecided_pixel& p : some(2))
+            for (int k = 0; k < 3; ++k) prefetch(&m.positions[m.triangles[p.id][k]]);
     }
     template <class Reals>
     INSONIFY_INLINE static void cross(Reals (&into)[3], const Reals (&a)[3], const Reals (&b)[3]) {
@@ -17909,11 +17916,11 @@ struct point_kernel {
         corners<N> t;
         std::uint32_t greatest = 0;
         reals column, row;
-        const auto pixel = [&](int k) -> const shown_pixel& {
+        const auto pixel = [&](int k) -> const undecided_pixel& {
             return pixels[start + (std::min)(static_cast<std::size_t>(k), count - 1)];
         };
         for (int k = 0; k < N; ++k) {
-            t[k] = &m.triangles[pixel(k).triangle];
+            t[k] = &m.triangles[pixel(k).id];
             greatest = (std::max)(greatest, (std::max)((std::max)(t[k]->x, t[k]->y), t[k]->z));
         }
         gather<N>(column, [&](int k) { return static_cast<double>(box.x0 + pixel(k).column); });
@@ -17964,8 +17971,8 @@ struct point_kernel {
         store(facing, faces);
         for (std::size_t k = 0; k < count; ++k) {
             if (facing[k] == 0 && !includes_averted) continue;
-            const shown_pixel& shown = pixels[start + k];
-            points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], object.caster, shown.triangle,
+            const undecided_pixel& shown = pixels[start + k];
+            points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], object.caster, shown.id,
                        static_cast<std::uint32_t>(box.y0 + shown.row) * pitch +
                            static_cast<std::uint32_t>(box.x0 + shown.column),
                        shown.direct);
@@ -18579,7 +18586,7 @@ class shadow_pass {
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
 
-    using shown_by_object = dynamic_array<dynamic_array<shown_pixel>>;
+    using shown_by_object = dynamic_array<dynamic_array<undecided_pixel>>;
     /// Memory that the tiles of a run share.
     struct scratch {
         point_batch points;
@@ -18887,14 +18894,13 @@ class overhead_painter {
         if constexpr (casts) {
             undecided_ = undecided_light(rig.size.x, rig.size.y, options_.tile, memory_of(ex));
             into.undecided = &undecided_;
-            into.marks_dark = labelled;
             if constexpr (labelled) into.shadow = &out_.labels.shadow;
         }
         if constexpr (labelled) {
             ids_ = image<std::uint32_t>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
             into.ids = &ids_;
+            into.types = &out_.labels.seabed;
         }
-        if constexpr (labelled) into.types = &out_.labels.seabed;
         if (objects_.empty()) into.clear({0, 0, rig.size.x, rig.size.y});
         for (std::size_t i = 0; i < objects_.size(); ++i) {
             const placed_mesh& placed = objects_[i].placed;
@@ -24391,6 +24397,87 @@ inline double smooth_noise(double x, double y, std::uint32_t layer, const philox
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/sonar/side_scan/range_geometry.hpp -----------------------------------------------
+// Closed forms of side-scan geometry over level seabed: ranges, shadows, layover, and heights measured from them.
+//
+// Lengths are metres. `altitude` is the sonar's above the seabed, `ground` a distance across the track on the seabed,
+// `height` that of a point above the seabed. Results that do not exist are 0 (a distance inside the water column) or
+// infinity (the shadow of an object as high as the sonar), never NaN for arguments within 1e150.
+//
+// Based on: P. Blondel. The Handbook of Sidescan Sonar. 2009.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace range_geometry {
+
+inline namespace INSONIFY_FLAGS {
+
+/// Distance from the sonar to a point.
+inline double slant_range(double ground, double altitude, double height = 0) {
+    const double down = altitude - height;
+    return numeric::square_root(ground * ground + down * down);
+}
+
+/// Distance across the track of the seabed at a slant range; 0 in the water column.
+inline double ground_range(double slant, double altitude) {
+    return slant > numeric::abs(altitude) ? numeric::square_root(slant * slant - altitude * altitude) : 0;
+}
+
+/// Angle of the ray with the seabed, radians: pi / 2 below the sonar.
+inline double grazing_angle(double ground, double altitude) {
+    return numeric::atan2(altitude, ground);
+}
+
+/// Distance across the track of the shadow of a point.
+inline double shadow_tip(double ground, double altitude, double height) {
+    return height < altitude ? ground * altitude / (altitude - height) : std::numeric_limits<double>::infinity();
+}
+
+/// Length of a shadow on the seabed, from below the point that casts it.
+inline double shadow_length(double ground, double altitude, double height) {
+    return height < altitude ? height * ground / (altitude - height) : std::numeric_limits<double>::infinity();
+}
+
+/// Length of a shadow in a picture of slant ranges, from the echo of the point that casts it.
+inline double slant_shadow_length(double ground, double altitude, double height) {
+    if (!(height < altitude)) return std::numeric_limits<double>::infinity();
+    const double tip = slant_range(shadow_tip(ground, altitude, height), altitude);
+    return numeric::is_finite(tip) ? tip - slant_range(ground, altitude, height) : tip;
+}
+
+/// Apparent position of a raised point after slant-range correction: layover moves it towards the sonar, at most to 0.
+inline double apparent_ground(double ground, double altitude, double height) {
+    return ground_range(slant_range(ground, altitude, height), altitude);
+}
+
+/// Height of an object from its shadow.
+/// @param near, tip  slant ranges of the object's top and of its shadow's tip; or distances across the track, of its
+///                   foot and of its shadow's tip
+inline double height_from_shadow(double near, double tip, double altitude) {
+    return tip > 0 ? altitude * (tip - near) / tip : 0;
+}
+
+/// Metres of seabed in a bin of slant range; infinite straight below the sonar.
+inline double ground_resolution(double bin, double grazing) {
+    const double cosine = numeric::sin_cos(grazing).cosine;
+    return cosine > 0 ? bin / cosine : std::numeric_limits<double>::infinity();
+}
+
+/// Metres along the track between the one-way -3 dB points of a beam, given in radians.
+inline double along_track_footprint(double slant, double beamwidth) {
+    return slant * beamwidth;
+}
+
+}  // namespace INSONIFY_FLAGS
+
+}  // namespace range_geometry
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/sonar/side_scan/sonar_equation.hpp -----------------------------------------------
 // The sonar equation as a list of parts. Parts that are not in the list are neither computed nor compiled.
 //
@@ -24492,9 +24579,9 @@ inline constexpr float min_grazing_sine = 1e-3f;
 
 }  // namespace detail
 
-/// The echo of level seabed that gains are computed for.
+/// The echo of level seabed at the datum that gains are computed for.
 struct flat_echo {
-    double range, altitude;  ///< metres
+    double range, altitude;  ///< metres; above the datum
     double bin, spacing;     ///< metres
     bool counts_time;        ///< bins count slant range
 };
@@ -24512,8 +24599,9 @@ struct time_varied_gain {
     }
 };
 
-/// Gain under which level seabed of reflectivity 1 has intensity 1, whatever the other parts are: beam pattern,
-/// spreading, law and area. At grazing angles above `steepest` it is constant, so that the first return stays bright.
+/// Gain under which level seabed at the datum, of reflectivity 1, has intensity 1, whatever the other parts are: beam
+/// pattern, spreading, law and area. At grazing angles above `steepest` it is constant, so that the first return stays
+/// bright.
 struct level_gain {
     float steepest = static_cast<float>(numeric::pi / 4);  ///< radians, below pi / 2
     template <class LevelAt>
@@ -24832,7 +24920,8 @@ struct record_options {
     Law law{};
     Equation equation{};
     /// Metres between the vertices at which the seabed is sampled, and an upper bound of the distance between rays on
-    /// level ground; 0: see default_cell. Measured at 5 m altitude with 2048 bins over 40 m, against cells of 5 mm:
+    /// level ground; 0: the longer of a bin and `ping_spacing`, at most a fiftieth of the altitude and at least
+    /// range / 2048. Measured at 5 m altitude with 2048 bins over 40 m, against cells of 5 mm:
     /// cells of 2, 4 and 8 cm take 2, 1 and 0.6 times the default's time; shadow labels differ in 0.9, 1.5 and 3.4 % of
     /// the bins on ripples and in 3.6, 5.3 and 11 % on rock, amplitudes by 7, 10 and 19 % (rms) on ripples.
     double cell = 0;
@@ -24911,7 +25000,8 @@ inline namespace INSONIFY_FLAGS {
 ///                 and, in ground range, the width of the horizontal beam go by it
 /// @param options  labels, backscatter law and sonar equation by type; sampling of the seabed
 /// @param ex       runs it; the result is the same bytes for any executor
-/// @throws invalid_input for a rig, a ping, a seabed, a material, a pose or an option out of range
+/// @throws invalid_input for a rig, a ping, a seabed, a material, a pose or an option out of range, or a pitched ping
+///         over a seabed that states no `range`
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
 frame<Labels> record(const scene& s, std::span<const ping> track, const side_scan_rig<Axis>& rig,
@@ -24941,7 +25031,7 @@ render_stats record_into(image_view<float> into, const scene& s, std::span<const
 }
 
 /// Records the straight track of a rig, in slant or ground range. Row i is ping i. For a `horizontal_beam`, the track
-/// is continued beyond its ends. The other parameters are those of `record`.
+/// is continued beyond its ends. The other parameters and errors are those of `record`.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
 frame<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
@@ -25051,8 +25141,9 @@ class bottom_tiles {
     depth_range depths(const ping_frame& p) const {
         if (p.is_level() || range_.empty()) return {0, 0};
         seabed::detail::require_finite(range_);
-        return {(p.position().z - range_.highest) / p.cosine_pitch(),
-                (p.position().z - range_.lowest) / p.cosine_pitch()};
+        const seabed::height_range heights = seabed::detail::with_rounding(range_);
+        return {(p.position().z - heights.highest) / p.cosine_pitch(),
+                (p.position().z - heights.lowest) / p.cosine_pitch()};
     }
 
     /// Vertices evaluated so far.
@@ -25205,8 +25296,7 @@ class bottom_tiles {
             if (height < lowest) lowest = height;  // not where it is NaN
             if (height > highest) highest = height;
         }
-        seabed::detail::require_within(merge(range_, {0, 0}), static_cast<double>(lowest),
-                                       static_cast<double>(highest));
+        seabed::detail::require_within(range_, static_cast<double>(lowest), static_cast<double>(highest));
         labels_.require_all(types);
     }
 
@@ -25264,7 +25354,9 @@ class bottom_profile {
                 at.vertex = tiles_.at(below.x, below.y);
                 at.down = altitude - static_cast<double>(at.vertex.height);
             } else {
-                at = cut_near(p, x(i), i > 0 ? points_[i - 1].down : depths.shallowest, depths);
+                // Below the sonar, even where a cliff behind it is higher.
+                const double near = i > 0 ? points_[i - 1].down : (std::max)(depths.shallowest, 0.0);
+                at = cut_near(p, x(i), near, depths);
             }
             const bottom_vertex& v = at.vertex;
             const auto height = static_cast<double>(v.height);
@@ -26724,7 +26816,7 @@ image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill
 
 /// Joins a port and a starboard recording of one track, port to the left: range grows outwards from the middle, where
 /// the water column lies. The labels' bounding boxes and areas are those of both sides together.
-/// @throws invalid_input for recordings of different heights or pings, or that are not one of each side
+/// @throws invalid_input for recordings of different heights, pings or targets, or that are not one of each side
 template <class Labels>
 frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboard) {
     const auto require_side = [](const char* name, const ping_numbers& rows, side wanted) {
@@ -26735,6 +26827,9 @@ frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboa
     require_side("starboard.rows.side", starboard.rows, side::starboard);
     detail::require_equal("port.rows.first", port.rows.first, starboard.rows.first, "that of the starboard recording");
     detail::require_equal("port.rows.step", port.rows.step, starboard.rows.step, "that of the starboard recording");
+    if constexpr (std::is_same_v<Labels, labels>)
+        detail::require_equal("port.labels.targets.size()", port.labels.targets.size(), starboard.labels.targets.size(),
+                              "that of the starboard recording");
     frame<Labels> out;
     const auto join = [](auto& both, const auto& left, const auto& right) { both = beside(mirrored(left), right); };
     detail::for_each_image(join, out, port, starboard);
@@ -27202,8 +27297,8 @@ class tone_sampler {
     double scale_ = 0, threshold_ = 0;
 };
 
-/// @throws invalid_input for a ping that has no place on the bottom
-inline void require_abreast(const ping& p, const std::string& name) {
+/// @throws invalid_input for a ping out of range, or beyond 10^12 metres
+inline void require_within_reach(const ping& p, const std::string& name) {
     validate(p, name);
     require_range(name + ".position.x", p.position.x, -1e12, 1e12, "within 10^12 metres");
     require_range(name + ".position.y", p.position.y, -1e12, 1e12, "within 10^12 metres");
@@ -27232,10 +27327,8 @@ void apply_tone(frame<labels>& r, const PingOfRow& ping_of_row, const side_scan_
             for (std::size_t x = 0; x < row.size(); ++x) {
                 if (types[x] == labels::no_seabed) continue;
                 const double range = first + (static_cast<double>(x) + 0.5) * bin;
-                const double square = range * range - altitude * altitude;
-                const double ground = Axis == across_track::ground_range ? range
-                                      : square > 0                       ? numeric::square_root(square)
-                                                                         : 0.0;
+                const double ground =
+                    Axis == across_track::ground_range ? range : range_geometry::ground_range(range, altitude);
                 row[x] *= static_cast<float>(from_decibels(level(frame.world(ground, 0))));
             }
         }
@@ -27259,18 +27352,19 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 /// Targets and the water column stay.
 ///
 /// @param r  a result of `render` with this rig, before noise and speckle
-/// @throws invalid_input for a rig or a parameter out of its range, or a recording of another width, without labels or
-///         with ping numbers beyond 2^31
+/// @throws invalid_input for a rig or a parameter out of its range, a picture from above, or a recording of another
+///         width, without labels or with ping numbers beyond 2^31
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
+    detail::require(r.rows.step != 0, "rows.step", r.rows.step, "1 or -1, as of a recording");
     const auto ping_of_row = [&](int y) {
         const std::int64_t number = r.rows.first + std::int64_t{r.rows.step} * y;
         detail::require_range("rows.first", number, -(std::int64_t{1} << 31), (std::int64_t{1} << 31) - 1,
                               "rows of pings within 2^31");
         return ping_of(rig, static_cast<int>(number));
     };
-    for (int y = 0; y < r.image.height(); ++y) detail::require_abreast(ping_of_row(y), "ping");
+    for (int y = 0; y < r.image.height(); ++y) detail::require_within_reach(ping_of_row(y), "ping");
     detail::apply_tone(r, ping_of_row, rig, tone, executor_ref(ex));
     return r;
 }
@@ -27287,7 +27381,8 @@ frame<labels> with_tone(frame<labels> r, std::span<const ping> track, const side
     validate(rig);
     detail::require_equal("track.size()", track.size(), static_cast<std::size_t>(r.image.height()),
                           "the number of the recording's rows");
-    for (std::size_t i = 0; i < track.size(); ++i) detail::require_abreast(track[i], detail::element_name("track", i));
+    for (std::size_t i = 0; i < track.size(); ++i)
+        detail::require_within_reach(track[i], detail::element_name("track", i));
     const auto ping_of_row = [&](int y) {
         return track[static_cast<std::size_t>(r.rows.step > 0 ? y : r.image.height() - 1 - y)];
     };
@@ -27561,8 +27656,9 @@ class scene_occlusion {
 /// @param within  region of the points, and sampling of the seabed
 /// @param policy  any shadow policy
 /// @param ex      runs it; the result is the same for any executor
-/// @throws invalid_input for bounds that are empty or not finite, a light, a policy, a pose or a material out of range,
-///         or more than 65534 targets
+/// @throws invalid_input for bounds that are empty, not finite or beyond 1e9 metres, a seabed that states no `range` or
+///         leaves it, more than 2^28 vertices of it, a light, a policy, a pose or a material out of range, or more than
+///         65534 targets
 template <shadow::casting_policy Shadow = shadow::exact, executor_argument E = serial_executor>
 auto occlusion_of(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
                   const Shadow& policy = {}, E&& ex = {}) {
@@ -27749,90 +27845,6 @@ struct ping_banding {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/side_scan/range_geometry.hpp -----------------------------------------------
-// Closed forms of side-scan geometry over level seabed: ranges, shadows, layover, and heights measured from them.
-//
-// Lengths are metres. `altitude` is the sonar's above the seabed, `ground` a distance across the track on the seabed,
-// `height` that of a point above the seabed. Results that do not exist are 0 (a distance inside the water column) or
-// infinity (the shadow of an object as high as the sonar), never NaN for arguments within 1e150.
-//
-// Based on: P. Blondel. The Handbook of Sidescan Sonar. 2009.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace range_geometry {
-
-inline namespace INSONIFY_FLAGS {
-
-/// Distance from the sonar to a point.
-inline double slant_range(double ground, double altitude, double height = 0) {
-    const double down = altitude - height;
-    return numeric::square_root(ground * ground + down * down);
-}
-
-/// Distance across the track of the seabed at a slant range; 0 in the water column.
-inline double ground_range(double slant, double altitude) {
-    return slant > numeric::abs(altitude) ? numeric::square_root(slant * slant - altitude * altitude) : 0;
-}
-
-/// Angle of the ray with the seabed, radians: pi / 2 below the sonar.
-inline double grazing_angle(double ground, double altitude) {
-    return numeric::atan2(altitude, ground);
-}
-
-/// Distance across the track of the shadow of a point.
-inline double shadow_tip(double ground, double altitude, double height) {
-    return height < altitude ? ground * altitude / (altitude - height) : std::numeric_limits<double>::infinity();
-}
-
-/// Length of a shadow on the seabed, from below the point that casts it.
-inline double shadow_length(double ground, double altitude, double height) {
-    return height < altitude ? height * ground / (altitude - height) : std::numeric_limits<double>::infinity();
-}
-
-/// Length of a shadow in a picture of slant ranges, from the echo of the point that casts it.
-inline double slant_shadow_length(double ground, double altitude, double height) {
-    if (!(height < altitude)) return std::numeric_limits<double>::infinity();
-    const double tip = slant_range(shadow_tip(ground, altitude, height), altitude);
-    return numeric::is_finite(tip) ? tip - slant_range(ground, altitude, height) : tip;
-}
-
-/// Apparent position of a raised point after slant-range correction: layover moves it towards the sonar, at most to 0.
-inline double apparent_ground(double ground, double altitude, double height) {
-    return ground_range(slant_range(ground, altitude, height), altitude);
-}
-
-/// Height of an object, from the slant ranges of its top and of its shadow's tip.
-inline double height_from_slant(double top, double tip, double altitude) {
-    return tip > 0 ? altitude * (tip - top) / tip : 0;
-}
-
-/// The same from distances across the track, of its foot and of its shadow's tip.
-inline double height_from_ground(double foot, double tip, double altitude) {
-    return tip > 0 ? altitude * (tip - foot) / tip : 0;
-}
-
-/// Metres of seabed in a bin of slant range; infinite straight below the sonar.
-inline double ground_resolution(double bin, double grazing) {
-    const double cosine = numeric::sin_cos(grazing).cosine;
-    return cosine > 0 ? bin / cosine : std::numeric_limits<double>::infinity();
-}
-
-/// Metres along the track between the one-way -3 dB points of a beam, given in radians.
-inline double along_track_footprint(double slant, double beamwidth) {
-    return slant * beamwidth;
-}
-
-}  // namespace INSONIFY_FLAGS
-
-}  // namespace range_geometry
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/sonar/side_scan/slant_to_ground.hpp ----------------------------------------------
 // Slant-range correction: resamples a recording to ground range, assuming a level seabed.
 
@@ -27847,18 +27859,29 @@ inline namespace INSONIFY_FLAGS {
 /// stay displaced towards the sonar by their layover. Intensities are interpolated linearly between the centres of
 /// bins, labels taken from the nearest bin; ranges that the recording does not contain are 0 and unlabelled.
 ///
-/// @param slant      a result of `render` or `record`
+/// @param slant      a result of `render` or `record`; resample each side before `both_sides` joins them
 /// @param from       its rig
 /// @param to         first_range, range and bins are the columns of the result
 /// @param altitudes  of the sonar above the seabed, one per row from the top; empty for the rig's altitude
-/// @throws invalid_input for a rig out of range, a number of altitudes other than 0 or that of the rows, or an altitude
-///         that is not finite
+/// @throws invalid_input for a rig out of range, a picture from above or of both sides, labels of another size, a
+///         number of altitudes other than 0 or that of the rows, or an altitude that is not finite
 template <class Labels>
 frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from, const ground_range& to,
                               std::span<const double> altitudes = {}) {
     validate(from), validate(to);
     const int rows = slant.image.height(), bins = slant.image.width();
     detail::require_equal("from.bins", from.bins, bins, "the recording's width");
+    detail::require(slant.rows.step != 0, "slant.rows.step", slant.rows.step, "1 or -1, as of a recording");
+    detail::require(slant.rows.port_columns == 0, "slant.rows.port_columns", slant.rows.port_columns,
+                    "0, as of a recording of one side");
+    if constexpr (std::is_same_v<Labels, labels>) {
+        const auto require_size = [&](const char* name, const auto& of) {
+            detail::require(of.width() == bins && of.height() == rows, name, of.size(), "that of the image");
+        };
+        require_size("labels.instance.size()", slant.labels.instance);
+        require_size("labels.shadow.size()", slant.labels.shadow);
+        require_size("labels.seabed.size()", slant.labels.seabed);
+    }
     detail::require(altitudes.empty() || altitudes.size() == static_cast<std::size_t>(rows), "altitudes.size()",
                     altitudes.size(), "0 or one per row");
     for (const double altitude : altitudes) detail::require_finite("altitudes", altitude);
@@ -27973,7 +27996,8 @@ class water_law {
 }  // namespace detail::inline INSONIFY_FLAGS
 
 /// A filter that adds mean intensities by slant range; speckle applied later makes them fluctuate. Rows are pings,
-/// columns bins of slant range.
+/// columns bins of slant range. The surface varies with the ping: filter a part of a recording with its origin, as in
+/// `apply(part, water, ex, {0, first_ping})`.
 struct water_column {
     float first_range = 0;  ///< start of the first bin, metres
     float bin = 0.02f;      ///< metres, above 0

@@ -77,7 +77,7 @@ struct height_range {
     double highest = -std::numeric_limits<double>::infinity();
 
     INSONIFY_MEMBER bool empty() const { return !(lowest <= highest); }
-    /// The range of models that do not state one. Overhead pictures refuse it.
+    /// The range of models that do not state one. Overhead pictures, `occlusion_of` and pitched pings refuse it.
     INSONIFY_MEMBER static constexpr height_range unlimited() {
         return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     }

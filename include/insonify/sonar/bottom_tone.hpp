@@ -8,6 +8,7 @@
 #pragma once
 
 #include <insonify/sonar/detail/smooth_noise.hpp>
+#include <insonify/sonar/side_scan/range_geometry.hpp>
 #include <insonify/sonar/speckle.hpp>
 
 #include <string>
@@ -103,8 +104,8 @@ class tone_sampler {
     double scale_ = 0, threshold_ = 0;
 };
 
-/// @throws invalid_input for a ping that has no place on the bottom
-inline void require_abreast(const ping& p, const std::string& name) {
+/// @throws invalid_input for a ping out of range, or beyond 10^12 metres
+inline void require_within_reach(const ping& p, const std::string& name) {
     validate(p, name);
     require_range(name + ".position.x", p.position.x, -1e12, 1e12, "within 10^12 metres");
     require_range(name + ".position.y", p.position.y, -1e12, 1e12, "within 10^12 metres");
@@ -133,10 +134,8 @@ void apply_tone(frame<labels>& r, const PingOfRow& ping_of_row, const side_scan_
             for (std::size_t x = 0; x < row.size(); ++x) {
                 if (types[x] == labels::no_seabed) continue;
                 const double range = first + (static_cast<double>(x) + 0.5) * bin;
-                const double square = range * range - altitude * altitude;
-                const double ground = Axis == across_track::ground_range ? range
-                                      : square > 0                       ? numeric::square_root(square)
-                                                                         : 0.0;
+                const double ground =
+                    Axis == across_track::ground_range ? range : range_geometry::ground_range(range, altitude);
                 row[x] *= static_cast<float>(from_decibels(level(frame.world(ground, 0))));
             }
         }
@@ -160,18 +159,19 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 /// Targets and the water column stay.
 ///
 /// @param r  a result of `render` with this rig, before noise and speckle
-/// @throws invalid_input for a rig or a parameter out of its range, or a recording of another width, without labels or
-///         with ping numbers beyond 2^31
+/// @throws invalid_input for a rig or a parameter out of its range, a picture from above, or a recording of another
+///         width, without labels or with ping numbers beyond 2^31
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
+    detail::require(r.rows.step != 0, "rows.step", r.rows.step, "1 or -1, as of a recording");
     const auto ping_of_row = [&](int y) {
         const std::int64_t number = r.rows.first + std::int64_t{r.rows.step} * y;
         detail::require_range("rows.first", number, -(std::int64_t{1} << 31), (std::int64_t{1} << 31) - 1,
                               "rows of pings within 2^31");
         return ping_of(rig, static_cast<int>(number));
     };
-    for (int y = 0; y < r.image.height(); ++y) detail::require_abreast(ping_of_row(y), "ping");
+    for (int y = 0; y < r.image.height(); ++y) detail::require_within_reach(ping_of_row(y), "ping");
     detail::apply_tone(r, ping_of_row, rig, tone, executor_ref(ex));
     return r;
 }
@@ -188,7 +188,8 @@ frame<labels> with_tone(frame<labels> r, std::span<const ping> track, const side
     validate(rig);
     detail::require_equal("track.size()", track.size(), static_cast<std::size_t>(r.image.height()),
                           "the number of the recording's rows");
-    for (std::size_t i = 0; i < track.size(); ++i) detail::require_abreast(track[i], detail::element_name("track", i));
+    for (std::size_t i = 0; i < track.size(); ++i)
+        detail::require_within_reach(track[i], detail::element_name("track", i));
     const auto ping_of_row = [&](int y) {
         return track[static_cast<std::size_t>(r.rows.step > 0 ? y : r.image.height() - 1 - y)];
     };

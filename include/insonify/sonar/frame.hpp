@@ -11,7 +11,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Counts of triangles and of samples. Range modes draw no triangles.
+/// Counts of triangles and of samples. Side-scan pictures draw no triangles.
 struct render_stats {
     draw_stats seabed, targets;
     int seabed_columns = 0, seabed_rows = 0;  ///< vertices sampled; the mesh may have fewer
@@ -29,8 +29,8 @@ struct ping_numbers {
 
 /// A picture and its ground truth.
 ///
-/// In overhead pictures up is forward, and pixels are in [0, 1]. In range modes row i is ping i, column j is bin j, and
-/// pixels are intensities, 0 and above; see sonar_equation.hpp for their unit.
+/// In overhead pictures up is forward, and pixels are in [0, 1]. In side-scan pictures row i is ping i, column j is bin
+/// j, and pixels are intensities, 0 and above; see sonar_equation.hpp for their unit.
 template <class Labels>  // labels, unless stated: see fwd.hpp
 struct frame {
     insonify::image<float> image;  ///< linear

@@ -68,6 +68,11 @@ inline void require_numbered_targets(const scene& s) {
     require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
 }
 
+/// @throws invalid_input for an instance that has no target
+inline void require_listed(const labels& l, const char* name, std::uint16_t instance) {
+    require(instance <= l.targets.size(), name, instance, "at most labels.targets.size()");
+}
+
 }  // namespace detail::inline INSONIFY_FLAGS
 
 /// Requests no labels: none are stored or computed.
@@ -90,9 +95,11 @@ INSONIFY_FUNCTION image<std::uint8_t> target_mask(const labels& l, std::uint16_t
 INSONIFY_FUNCTION image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance);
 
 /// The class of every pixel that shows a target.
+/// @throws invalid_input for an instance that is not listed
 INSONIFY_FUNCTION class_map classes_of(const labels& l);
 
 /// Sets the bounding boxes and areas of the listed targets from the images.
+/// @throws invalid_input for an instance that is not listed, or images of different sizes
 INSONIFY_FUNCTION void measure_targets(labels& l);
 
 #if INSONIFY_BODIES
@@ -115,7 +122,10 @@ INSONIFY_FUNCTION class_map classes_of(const labels& l) {
         class_of.push_back(static_cast<std::uint16_t>(known - map.names.begin() + 1));
         if (known == map.names.end()) map.names.push_back(t.class_name);
     }
-    map.classes = map_pixels(l.instance, [&](std::uint16_t instance) { return class_of[instance]; });
+    map.classes = map_pixels(l.instance, [&](std::uint16_t instance) {
+        detail::require_listed(l, "labels.instance", instance);
+        return class_of[instance];
+    });
     return map;
 }
 
@@ -124,6 +134,8 @@ INSONIFY_FUNCTION void measure_targets(labels& l) {
         if (area++ == 0) box = {x, y, x, y};
         box = {(std::min)(box.x0, x), (std::min)(box.y0, y), (std::max)(box.x1, x + 1), (std::max)(box.y1, y + 1)};
     };
+    detail::require_equal("labels.shadow.width()", l.shadow.width(), l.instance.width(), "that of labels.instance");
+    detail::require_equal("labels.shadow.height()", l.shadow.height(), l.instance.height(), "that of labels.instance");
     for (target_label& t : l.targets) t.area = t.shadow_area = 0, t.box = t.shadow_box = {};
     for (int y = 0; y < l.instance.height(); ++y) {
         const auto instances = l.instance.row(y), shadows = l.shadow.row(y);
@@ -131,9 +143,11 @@ INSONIFY_FUNCTION void measure_targets(labels& l) {
             const std::uint16_t instance = instances[static_cast<std::size_t>(x)],
                                 shadow = shadows[static_cast<std::size_t>(x)];
             if (instance != labels::no_instance) {
+                detail::require_listed(l, "labels.instance", instance);
                 target_label& t = l.targets[instance - 1u];
                 include(t.box, t.area, x, y);
             } else if (shadow != labels::is_lit && shadow != labels::by_seabed) {
+                detail::require_listed(l, "labels.shadow", shadow);
                 target_label& t = l.targets[shadow - 1u];
                 include(t.shadow_box, t.shadow_area, x, y);
             }

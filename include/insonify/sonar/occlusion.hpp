@@ -180,8 +180,9 @@ class scene_occlusion {
 /// @param within  region of the points, and sampling of the seabed
 /// @param policy  any shadow policy
 /// @param ex      runs it; the result is the same for any executor
-/// @throws invalid_input for bounds that are empty or not finite, a light, a policy, a pose or a material out of range,
-///         or more than 65534 targets
+/// @throws invalid_input for bounds that are empty, not finite or beyond 1e9 metres, a seabed that states no `range` or
+///         leaves it, more than 2^28 vertices of it, a light, a policy, a pose or a material out of range, or more than
+///         65534 targets
 template <shadow::casting_policy Shadow = shadow::exact, executor_argument E = serial_executor>
 auto occlusion_of(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
                   const Shadow& policy = {}, E&& ex = {}) {

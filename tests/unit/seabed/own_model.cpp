@@ -242,6 +242,8 @@ TEST_CASE("A seabed that leaves the range that it states is refused") {
         CHECK_THROWS_WITH(occlude(beyond), ContainsSubstring("expected heights within its range()"));
         CHECK_THROWS_WITH(record(beyond), ContainsSubstring("expected heights within its range()"));
     }
+    for (const float level : {0.0f, 9.0f})  // below a range that is above the datum
+        CHECK_THROWS_WITH(record({level, {10, 11}}), ContainsSubstring("its range(), 10 to 11"));
     const float infinite = std::numeric_limits<float>::infinity();
     CHECK_THROWS_WITH(draw({infinite, {-0.2, 0.2}}), ContainsSubstring("a height of the seabed is inf"));
     CHECK_THROWS_WITH(record({infinite, {-0.2, 0.2}}), ContainsSubstring("a height of the seabed is inf"));

@@ -146,6 +146,27 @@ TEST_CASE("A pitched fan finds ground that rises more steeply than the fan desce
     }
 }
 
+TEST_CASE("A pitched fan does not meet a cliff behind the sonar, however high it is") {
+    for (const double pitch : {0.05, 0.15, 0.3}) {
+        const auto heard = [&](double cliff) {
+            const in::scene s =
+                over(ground{[=](double, double y) { return y < -3 ? static_cast<float>(cliff) : 0; }, 0, 35});
+            return energy(hear(s, {.position = {0, 0, 5}, .pitch = pitch}, 0, 20, 200).image);
+        };
+        CHECK(heard(0) > 0);
+        CHECK(heard(35) == heard(0));
+    }
+}
+
+TEST_CASE("A pitched fan over ground at the very bounds of its heights is covered by what is sampled") {
+    // Rounded to a float, the ground lies below its range. Tiles of 4 m begin at multiples of 4 m.
+    const in::scene s = over(ground{[](double, double) { return -1000.7f; }, -1000.7, -1000.7});
+    for (int i = 0; i < 6; ++i) {
+        const double y = 104 - 1005.7 * std::tan(0.1) - 6e-7 + i * 2e-9;
+        CHECK(energy(hear(s, {.position = {0.01, y, 5}, .pitch = 0.1}, 0, 1100, 1000, 0.0625).image) > 0);
+    }
+}
+
 TEST_CASE("A pitched fan that passes below the border of a gap meets nothing there") {
     const auto heard_at = [](float height) {  // of ground that begins 3 m ahead, where the fan is at 2 m
         const in::scene s = over(ground{[=](double, double y) { return y < 3 ? no_data : height; }, -3, 3});

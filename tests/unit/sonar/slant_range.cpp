@@ -104,9 +104,9 @@ TEST_CASE("Closed forms of side-scan geometry give the values of the table") {
               Approx(std::sqrt(t.ground * t.ground - 2 * t.altitude * t.height + t.height * t.height)));
         // Heights from shadows invert exactly.
         const double tip = rg::shadow_tip(t.ground, t.altitude, t.height);
-        CHECK(rg::height_from_ground(t.ground, tip, t.altitude) == Approx(t.height).epsilon(1e-12));
-        CHECK(rg::height_from_slant(rg::slant_range(t.ground, t.altitude, t.height), rg::slant_range(tip, t.altitude),
-                                    t.altitude) == Approx(t.height).epsilon(1e-12));
+        CHECK(rg::height_from_shadow(t.ground, tip, t.altitude) == Approx(t.height).epsilon(1e-12));
+        CHECK(rg::height_from_shadow(rg::slant_range(t.ground, t.altitude, t.height), rg::slant_range(tip, t.altitude),
+                                     t.altitude) == Approx(t.height).epsilon(1e-12));
     }
     CHECK(rg::slant_range(20, 4, 0.5) == Approx(20.304).margin(5e-4));
     CHECK(rg::ground_resolution(1500 * 50e-6 / 2, in::numeric::to_radians(20)) == Approx(0.0399).margin(5e-5));
@@ -121,7 +121,7 @@ TEST_CASE("Closed forms are never NaN, also where a quantity does not exist") {
     CHECK(std::isinf(rg::slant_shadow_length(10, 3, 4)));
     CHECK(rg::apparent_ground(1, 10, 1) == 0);  // heard before the bottom is
     CHECK(degrees(rg::grazing_angle(0, 10)) == Approx(90));
-    CHECK(rg::height_from_slant(0, 0, 10) == 0);
+    CHECK(rg::height_from_shadow(0, 0, 10) == 0);
 }
 
 TEST_CASE("Closed forms are never NaN below the datum and far away") {
@@ -149,7 +149,7 @@ TEST_CASE("Echoes and shadows of the four targets arrive where the table's close
             // The height, measured from the picture as operators do.
             if (expected.name == "cone") {
                 const double tip = (shadow.last + 1) * rig.bin();
-                CHECK(rg::height_from_slant(rg::slant_range(t.ground, t.altitude, t.height), tip, t.altitude) ==
+                CHECK(rg::height_from_shadow(rg::slant_range(t.ground, t.altitude, t.height), tip, t.altitude) ==
                       Approx(t.height).margin(1.5 * t.altitude / tip * rig.bin()));
             }
         }

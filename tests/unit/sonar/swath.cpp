@@ -32,6 +32,32 @@ TEST_CASE("both_sides() takes a recording of each side, of the same pings in the
     const auto overhead = in::render(s, in::overhead{.size = {16, 4}});
     CHECK_THROWS_WITH(in::both_sides(port, overhead), ContainsSubstring("starboard.rows.side"));
     CHECK_THROWS_WITH(in::both_sides(in::upside_down(port), starboard), ContainsSubstring("port.rows.first"));
+    auto other = port;
+    other.labels.targets.push_back({"ball", 1, {}, {}, {}});
+    CHECK_THROWS_WITH(in::both_sides(other, starboard), ContainsSubstring("port.labels.targets.size() is 1"));
+}
+
+TEST_CASE("Labels name targets that are listed") {
+    in::labels l(3, 2);
+    l.instance(1, 1) = 2;
+    l.targets.push_back({"ball", 1, {}, {}, {}});
+    CHECK_THROWS_WITH(in::classes_of(l), ContainsSubstring("labels.instance is 2"));
+    CHECK_THROWS_WITH(in::measure_targets(l), ContainsSubstring("labels.instance is 2"));
+    l.instance(1, 1) = 0, l.shadow(1, 1) = 3;
+    CHECK_THROWS_WITH(in::measure_targets(l), ContainsSubstring("labels.shadow is 3"));
+    l.shadow = in::image<std::uint16_t>(3, 1);
+    CHECK_THROWS_WITH(in::measure_targets(l), ContainsSubstring("labels.shadow.height() is 1"));
+}
+
+TEST_CASE("Slant-range correction takes recordings of one side, with labels of their size") {
+    const in::side_scan rig{.pings = 4, .bins = 16};
+    const in::ground_range to{.pings = 4, .bins = 16};
+    const auto recording = in::render(in::scene{}, rig);
+    auto sides = recording, above = recording, unlabelled = recording;
+    sides.rows.port_columns = 8, above.rows.step = 0, unlabelled.labels.seabed = {};
+    CHECK_THROWS_WITH(in::to_ground_range(sides, rig, to), ContainsSubstring("slant.rows.port_columns is 8"));
+    CHECK_THROWS_WITH(in::to_ground_range(above, rig, to), ContainsSubstring("slant.rows.step is 0"));
+    CHECK_THROWS_WITH(in::to_ground_range(unlabelled, rig, to), ContainsSubstring("labels.seabed.size() is 0"));
 }
 
 TEST_CASE("The paper's stitched picture: two of its cameras back to back, shadows away from the gap, forward up") {

@@ -203,14 +203,13 @@ class overhead_painter {
         if constexpr (casts) {
             undecided_ = undecided_light(rig.size.x, rig.size.y, options_.tile, memory_of(ex));
             into.undecided = &undecided_;
-            into.marks_dark = labelled;
             if constexpr (labelled) into.shadow = &out_.labels.shadow;
         }
         if constexpr (labelled) {
             ids_ = image<std::uint32_t>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
             into.ids = &ids_;
+            into.types = &out_.labels.seabed;
         }
-        if constexpr (labelled) into.types = &out_.labels.seabed;
         if (objects_.empty()) into.clear({0, 0, rig.size.x, rig.size.y});
         for (std::size_t i = 0; i < objects_.size(); ++i) {
             const placed_mesh& placed = objects_[i].placed;

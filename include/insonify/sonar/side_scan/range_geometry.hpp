@@ -57,14 +57,11 @@ inline double apparent_ground(double ground, double altitude, double height) {
     return ground_range(slant_range(ground, altitude, height), altitude);
 }
 
-/// Height of an object, from the slant ranges of its top and of its shadow's tip.
-inline double height_from_slant(double top, double tip, double altitude) {
-    return tip > 0 ? altitude * (tip - top) / tip : 0;
-}
-
-/// The same from distances across the track, of its foot and of its shadow's tip.
-inline double height_from_ground(double foot, double tip, double altitude) {
-    return tip > 0 ? altitude * (tip - foot) / tip : 0;
+/// Height of an object from its shadow.
+/// @param near, tip  slant ranges of the object's top and of its shadow's tip; or distances across the track, of its
+///                   foot and of its shadow's tip
+inline double height_from_shadow(double near, double tip, double altitude) {
+    return tip > 0 ? altitude * (tip - near) / tip : 0;
 }
 
 /// Metres of seabed in a bin of slant range; infinite straight below the sonar.

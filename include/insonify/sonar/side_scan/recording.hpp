@@ -63,7 +63,8 @@ inline namespace INSONIFY_FLAGS {
 ///                 and, in ground range, the width of the horizontal beam go by it
 /// @param options  labels, backscatter law and sonar equation by type; sampling of the seabed
 /// @param ex       runs it; the result is the same bytes for any executor
-/// @throws invalid_input for a rig, a ping, a seabed, a material, a pose or an option out of range
+/// @throws invalid_input for a rig, a ping, a seabed, a material, a pose or an option out of range, or a pitched ping
+///         over a seabed that states no `range`
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
 frame<Labels> record(const scene& s, std::span<const ping> track, const side_scan_rig<Axis>& rig,
@@ -93,7 +94,7 @@ render_stats record_into(image_view<float> into, const scene& s, std::span<const
 }
 
 /// Records the straight track of a rig, in slant or ground range. Row i is ping i. For a `horizontal_beam`, the track
-/// is continued beyond its ends. The other parameters are those of `record`.
+/// is continued beyond its ends. The other parameters and errors are those of `record`.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
 frame<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,

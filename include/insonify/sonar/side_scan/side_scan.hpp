@@ -59,7 +59,7 @@ struct side_scan_rig {
     static constexpr across_track axis = Axis;
 
     glm::dvec2 position{0, 0};   ///< of the first ping over the datum, metres
-    float altitude = 5;          ///< above the datum, metres
+    float altitude = 5;          ///< above the datum, metres; default gains take the seabed to be there
     float yaw = 0;               ///< radians, as of a ping
     float ping_spacing = 0.04f;  ///< metres of track from one ping to the next, > 0
     int pings = 1024;            ///< 1 to 2^20

@@ -15,18 +15,29 @@ inline namespace INSONIFY_FLAGS {
 /// stay displaced towards the sonar by their layover. Intensities are interpolated linearly between the centres of
 /// bins, labels taken from the nearest bin; ranges that the recording does not contain are 0 and unlabelled.
 ///
-/// @param slant      a result of `render` or `record`
+/// @param slant      a result of `render` or `record`; resample each side before `both_sides` joins them
 /// @param from       its rig
 /// @param to         first_range, range and bins are the columns of the result
 /// @param altitudes  of the sonar above the seabed, one per row from the top; empty for the rig's altitude
-/// @throws invalid_input for a rig out of range, a number of altitudes other than 0 or that of the rows, or an altitude
-///         that is not finite
+/// @throws invalid_input for a rig out of range, a picture from above or of both sides, labels of another size, a
+///         number of altitudes other than 0 or that of the rows, or an altitude that is not finite
 template <class Labels>
 frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from, const ground_range& to,
                               std::span<const double> altitudes = {}) {
     validate(from), validate(to);
     const int rows = slant.image.height(), bins = slant.image.width();
     detail::require_equal("from.bins", from.bins, bins, "the recording's width");
+    detail::require(slant.rows.step != 0, "slant.rows.step", slant.rows.step, "1 or -1, as of a recording");
+    detail::require(slant.rows.port_columns == 0, "slant.rows.port_columns", slant.rows.port_columns,
+                    "0, as of a recording of one side");
+    if constexpr (std::is_same_v<Labels, labels>) {
+        const auto require_size = [&](const char* name, const auto& of) {
+            detail::require(of.width() == bins && of.height() == rows, name, of.size(), "that of the image");
+        };
+        require_size("labels.instance.size()", slant.labels.instance);
+        require_size("labels.shadow.size()", slant.labels.shadow);
+        require_size("labels.seabed.size()", slant.labels.seabed);
+    }
     detail::require(altitudes.empty() || altitudes.size() == static_cast<std::size_t>(rows), "altitudes.size()",
                     altitudes.size(), "0 or one per row");
     for (const double altitude : altitudes) detail::require_finite("altitudes", altitude);

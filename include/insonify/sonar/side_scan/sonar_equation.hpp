@@ -104,9 +104,9 @@ inline constexpr float min_grazing_sine = 1e-3f;
 
 }  // namespace detail
 
-/// The echo of level seabed that gains are computed for.
+/// The echo of level seabed at the datum that gains are computed for.
 struct flat_echo {
-    double range, altitude;  ///< metres
+    double range, altitude;  ///< metres; above the datum
     double bin, spacing;     ///< metres
     bool counts_time;        ///< bins count slant range
 };
@@ -124,8 +124,9 @@ struct time_varied_gain {
     }
 };
 
-/// Gain under which level seabed of reflectivity 1 has intensity 1, whatever the other parts are: beam pattern,
-/// spreading, law and area. At grazing angles above `steepest` it is constant, so that the first return stays bright.
+/// Gain under which level seabed at the datum, of reflectivity 1, has intensity 1, whatever the other parts are: beam
+/// pattern, spreading, law and area. At grazing angles above `steepest` it is constant, so that the first return stays
+/// bright.
 struct level_gain {
     float steepest = static_cast<float>(numeric::pi / 4);  ///< radians, below pi / 2
     template <class LevelAt>

@@ -62,7 +62,7 @@ image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill
 
 /// Joins a port and a starboard recording of one track, port to the left: range grows outwards from the middle, where
 /// the water column lies. The labels' bounding boxes and areas are those of both sides together.
-/// @throws invalid_input for recordings of different heights or pings, or that are not one of each side
+/// @throws invalid_input for recordings of different heights, pings or targets, or that are not one of each side
 template <class Labels>
 frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboard) {
     const auto require_side = [](const char* name, const ping_numbers& rows, side wanted) {
@@ -73,6 +73,9 @@ frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboa
     require_side("starboard.rows.side", starboard.rows, side::starboard);
     detail::require_equal("port.rows.first", port.rows.first, starboard.rows.first, "that of the starboard recording");
     detail::require_equal("port.rows.step", port.rows.step, starboard.rows.step, "that of the starboard recording");
+    if constexpr (std::is_same_v<Labels, labels>)
+        detail::require_equal("port.labels.targets.size()", port.labels.targets.size(), starboard.labels.targets.size(),
+                              "that of the starboard recording");
     frame<Labels> out;
     const auto join = [](auto& both, const auto& left, const auto& right) { both = beside(mirrored(left), right); };
     detail::for_each_image(join, out, port, starboard);

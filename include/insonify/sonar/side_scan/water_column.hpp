@@ -79,7 +79,8 @@ class water_law {
 }  // namespace detail::inline INSONIFY_FLAGS
 
 /// A filter that adds mean intensities by slant range; speckle applied later makes them fluctuate. Rows are pings,
-/// columns bins of slant range.
+/// columns bins of slant range. The surface varies with the ping: filter a part of a recording with its origin, as in
+/// `apply(part, water, ex, {0, first_ping})`.
 struct water_column {
     float first_range = 0;  ///< start of the first bin, metres
     float bin = 0.02f;      ///< metres, above 0

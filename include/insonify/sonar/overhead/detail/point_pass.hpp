@@ -37,18 +37,11 @@ struct view_from_object {
     }
 };
 
-/// A pixel whose point is looked for.
-struct shown_pixel {
-    std::uint16_t column, row;  ///< within the tile
-    std::uint32_t triangle;
-    float direct;  ///< see point_batch
-};
-
 /// Finds the points of some pixels of one object.
 struct point_kernel {
     const drawn_object& object;
     const view_from_object& from;
-    std::span<const shown_pixel> pixels;
+    std::span<const undecided_pixel> pixels;  ///< with the ids of triangles within the object
     bool has_near_light;
     bool includes_averted;
     const rect& box;      ///< the tile's pixels
@@ -73,9 +66,9 @@ struct point_kernel {
             const std::size_t first = (std::min)(i + static_cast<std::size_t>(rounds * N), pixels.size());
             return pixels.subspan(first, (std::min)(pixels.size() - first, std::size_t{N}));
         };
-        for (const shown_pixel& p : some(4)) prefetch(&m.triangles[p.triangle]);
-        for (const shown_pixel& p : some(2))
-            for (int k = 0; k < 3; ++k) prefetch(&m.positions[m.triangles[p.triangle][k]]);
+        for (const undecided_pixel& p : some(4)) prefetch(&m.triangles[p.id]);
+        for (const undecided_pixel& p : some(2))
+            for (int k = 0; k < 3; ++k) prefetch(&m.positions[m.triangles[p.id][k]]);
     }
     template <class Reals>
     INSONIFY_INLINE static void cross(Reals (&into)[3], const Reals (&a)[3], const Reals (&b)[3]) {
@@ -126,11 +119,11 @@ struct point_kernel {
         corners<N> t;
         std::uint32_t greatest = 0;
         reals column, row;
-        const auto pixel = [&](int k) -> const shown_pixel& {
+        const auto pixel = [&](int k) -> const undecided_pixel& {
             return pixels[start + (std::min)(static_cast<std::size_t>(k), count - 1)];
         };
         for (int k = 0; k < N; ++k) {
-            t[k] = &m.triangles[pixel(k).triangle];
+            t[k] = &m.triangles[pixel(k).id];
             greatest = (std::max)(greatest, (std::max)((std::max)(t[k]->x, t[k]->y), t[k]->z));
         }
         gather<N>(column, [&](int k) { return static_cast<double>(box.x0 + pixel(k).column); });
@@ -181,8 +174,8 @@ struct point_kernel {
         store(facing, faces);
         for (std::size_t k = 0; k < count; ++k) {
             if (facing[k] == 0 && !includes_averted) continue;
-            const shown_pixel& shown = pixels[start + k];
-            points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], object.caster, shown.triangle,
+            const undecided_pixel& shown = pixels[start + k];
+            points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], object.caster, shown.id,
                        static_cast<std::uint32_t>(box.y0 + shown.row) * pitch +
                            static_cast<std::uint32_t>(box.x0 + shown.column),
                        shown.direct);

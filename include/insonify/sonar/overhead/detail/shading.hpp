@@ -95,7 +95,6 @@ struct drawn_object {
 struct shaded_images {
     image<float>& picture;
     undecided_light* undecided = nullptr;    ///< if there is a shadow policy
-    bool marks_dark = false;                 ///< pixels that the source cannot light are undecided too, for labels
     image<std::uint32_t>* ids = nullptr;     ///< the visibility buffer
     image<std::uint8_t>* types = nullptr;    ///< seabed::type, of bottoms of several types
     image<std::uint16_t>* shadow = nullptr;  ///< labels of known casters, as in labels::shadow
@@ -185,7 +184,8 @@ class surface_shader {
         using ints = lanes<std::int32_t, N>;
         using floats = lanes<float, N>;
         floats value = rest < 1.0f ? rest : floats{} + 1.0f;
-        ints undecided = into_.marks_dark ? ints{} - 1 : ints(direct > 0.0f), is_dark{};
+        // Labels need the casters of pixels that the source cannot light, too.
+        ints undecided = into_.shadow != nullptr ? ints{} - 1 : ints(direct > 0.0f), is_dark{};
         if (object_.known != nullptr) {
             ints known;
             gather<N>(known, [&](int k) { return static_cast<std::int32_t>(object_.known[f.triangles[k]]); });

@@ -80,7 +80,7 @@ class shadow_pass {
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
 
-    using shown_by_object = dynamic_array<dynamic_array<shown_pixel>>;
+    using shown_by_object = dynamic_array<dynamic_array<undecided_pixel>>;
     /// Memory that the tiles of a run share.
     struct scratch {
         point_batch points;

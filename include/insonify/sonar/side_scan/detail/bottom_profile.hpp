@@ -43,7 +43,9 @@ class bottom_profile {
                 at.vertex = tiles_.at(below.x, below.y);
                 at.down = altitude - static_cast<double>(at.vertex.height);
             } else {
-                at = cut_near(p, x(i), i > 0 ? points_[i - 1].down : depths.shallowest, depths);
+                // Below the sonar, even where a cliff behind it is higher.
+                const double near = i > 0 ? points_[i - 1].down : (std::max)(depths.shallowest, 0.0);
+                at = cut_near(p, x(i), near, depths);
             }
             const bottom_vertex& v = at.vertex;
             const auto height = static_cast<double>(v.height);

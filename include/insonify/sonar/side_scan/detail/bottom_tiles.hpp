@@ -91,8 +91,9 @@ class bottom_tiles {
     depth_range depths(const ping_frame& p) const {
         if (p.is_level() || range_.empty()) return {0, 0};
         seabed::detail::require_finite(range_);
-        return {(p.position().z - range_.highest) / p.cosine_pitch(),
-                (p.position().z - range_.lowest) / p.cosine_pitch()};
+        const seabed::height_range heights = seabed::detail::with_rounding(range_);
+        return {(p.position().z - heights.highest) / p.cosine_pitch(),
+                (p.position().z - heights.lowest) / p.cosine_pitch()};
     }
 
     /// Vertices evaluated so far.
@@ -245,8 +246,7 @@ class bottom_tiles {
             if (height < lowest) lowest = height;  // not where it is NaN
             if (height > highest) highest = height;
         }
-        seabed::detail::require_within(merge(range_, {0, 0}), static_cast<double>(lowest),
-                                       static_cast<double>(highest));
+        seabed::detail::require_within(range_, static_cast<double>(lowest), static_cast<double>(highest));
         labels_.require_all(types);
     }
 
