@@ -24453,10 +24453,10 @@ inline double apparent_ground(double ground, double altitude, double height) {
 }
 
 /// Height of an object from its shadow.
-/// @param near, tip  slant ranges of the object's top and of its shadow's tip; or distances across the track, of its
-///                   foot and of its shadow's tip
-inline double height_from_shadow(double near, double tip, double altitude) {
-    return tip > 0 ? altitude * (tip - near) / tip : 0;
+/// @param front, tip  slant ranges of the object's top and of its shadow's tip; or distances across the track, of its
+///                    foot and of its shadow's tip
+inline double height_from_shadow(double front, double tip, double altitude) {
+    return tip > 0 ? altitude * (tip - front) / tip : 0;
 }
 
 /// Metres of seabed in a bin of slant range; infinite straight below the sonar.
@@ -25355,8 +25355,8 @@ class bottom_profile {
                 at.down = altitude - static_cast<double>(at.vertex.height);
             } else {
                 // Below the sonar, even where a cliff behind it is higher.
-                const double near = i > 0 ? points_[i - 1].down : (std::max)(depths.shallowest, 0.0);
-                at = cut_near(p, x(i), near, depths);
+                const double from = i > 0 ? points_[i - 1].down : (std::max)(depths.shallowest, 0.0);
+                at = cut_near(p, x(i), from, depths);
             }
             const bottom_vertex& v = at.vertex;
             const auto height = static_cast<double>(v.height);

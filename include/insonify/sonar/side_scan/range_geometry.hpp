@@ -58,10 +58,10 @@ inline double apparent_ground(double ground, double altitude, double height) {
 }
 
 /// Height of an object from its shadow.
-/// @param near, tip  slant ranges of the object's top and of its shadow's tip; or distances across the track, of its
-///                   foot and of its shadow's tip
-inline double height_from_shadow(double near, double tip, double altitude) {
-    return tip > 0 ? altitude * (tip - near) / tip : 0;
+/// @param front, tip  slant ranges of the object's top and of its shadow's tip; or distances across the track, of its
+///                    foot and of its shadow's tip
+inline double height_from_shadow(double front, double tip, double altitude) {
+    return tip > 0 ? altitude * (tip - front) / tip : 0;
 }
 
 /// Metres of seabed in a bin of slant range; infinite straight below the sonar.

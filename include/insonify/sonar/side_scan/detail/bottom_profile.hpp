@@ -44,8 +44,8 @@ class bottom_profile {
                 at.down = altitude - static_cast<double>(at.vertex.height);
             } else {
                 // Below the sonar, even where a cliff behind it is higher.
-                const double near = i > 0 ? points_[i - 1].down : (std::max)(depths.shallowest, 0.0);
-                at = cut_near(p, x(i), near, depths);
+                const double from = i > 0 ? points_[i - 1].down : (std::max)(depths.shallowest, 0.0);
+                at = cut_near(p, x(i), from, depths);
             }
             const bottom_vertex& v = at.vertex;
             const auto height = static_cast<double>(v.height);
