@@ -87,11 +87,6 @@ class random_sequence {
         detail::require(count > 0, "count", count, "at least 1");
         return static_cast<std::uint32_t>((std::uint64_t{word()} * count) >> 32);
     }
-    /// Standard normal.
-    double normal() {
-        const std::uint32_t a = word();
-        return normal_pair(a, word())[0];
-    }
 
   private:
     philox_key key_;

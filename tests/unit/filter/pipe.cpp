@@ -64,6 +64,7 @@ TEST_CASE("A chain gives the result of its stages applied one by one") {
     const auto look = match | grain | invert | in::colormap::copper;
     const in::image<in::rgb8> step_by_step = (((source | match) | grain) | invert) | in::colormap::copper;
     CHECK((source | look) == step_by_step);
+    CHECK(look(source) == step_by_step);
     CHECK((source | (match | (grain | (invert | in::colormap::copper)))) == step_by_step);
     CHECK((source.view() | look) == step_by_step);
     CHECK((in::image<float>(source) | look) == step_by_step);

@@ -40,6 +40,8 @@ TEST_CASE("Cylinders and cones get the fewest segments whose sagitta is within t
             const int around = in::segments_for(in::cylinder{.radius = r}, d);
             CHECK(in::segments_for(in::cone{.radius = r}, d) == around);
             CHECK(in::segments_for(in::cone{.radius = r / 2, .top_radius = r}, d) == around);
+            const int tread = in::segments_for(in::tyre{.diameter = 2 * r}, d);
+            CHECK(sagitta(static_cast<double>(r), tread) <= static_cast<double>(d) * (1 + 1e-9));
             if (around == 3) continue;
             CHECK(sagitta(static_cast<double>(r), around) <= static_cast<double>(d) * (1 + 1e-9));
             CHECK(sagitta(static_cast<double>(r), around - 1) > static_cast<double>(d));
