@@ -1,6 +1,7 @@
 // The fewest segments within a chord error: measured on the facets, against the sagitta of a circle.
 #include <insonify/geometry/cone.hpp>
 #include <insonify/geometry/cylinder.hpp>
+#include <insonify/geometry/objects/tyre.hpp>
 #include <insonify/geometry/sphere.hpp>
 
 #include <cmath>
