@@ -1,9 +1,9 @@
 // Chooses the cheapest settings whose errors stay within a budget.
 //
 // The tolerance for a curved target's facets has a closed form in the positions of camera and light. Errors that depend
-// on the seabed are measured: a few small pictures are compared with marched rays, from coarse to fine, and the first
-// ones within the budget decide. That takes as long as a few large pictures, once for all pictures of a rig and a kind
-// of seabed.
+// on the seabed are measured: a few small pictures are compared with ones of the finest grid, from coarse to fine, and
+// the first ones within the budget decide. That takes as long as a few large pictures, once for all pictures of a rig
+// and a kind of seabed.
 #pragma once
 
 #include <insonify/accuracy/seabed_probe.hpp>
@@ -12,6 +12,7 @@
 #include <insonify/geometry/sphere.hpp>
 
 #include <concepts>
+#include <type_traits>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -150,7 +151,12 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         return found;
     }
 
-    const detail::seabed_probe probed(bottom, rig, how, ex);
+    // Maps are compared with exact shadows, the other policies with themselves on the finest grid.
+    using truth = std::conditional_t < requires {
+        found.shadow.texels_per_pixel;
+    }
+    , insonify::shadow::exact, Shadow > ;
+    const detail::seabed_probe probed(bottom, rig, how, truth{}, ex);
     const double pixel = view.ground_sampling();
     const int longer = (std::max)(rig.size.x, rig.size.y);
     const auto errors_of = [&](double cells_per_pixel, double texels) {
