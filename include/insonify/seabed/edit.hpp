@@ -237,7 +237,11 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
     const auto up = spline_weights(v.fraction);
     for (std::size_t j = 0; j < 16; ++j) {
         const double y = step * static_cast<double>(v.cell - 7 + static_cast<std::int64_t>(j));
-        ground(scanline{.y = y, .origin = step * static_cast<double>(first), .spacing = step}, std::span(nodes));
+        ground(scanline{.y = y,
+                        .origin = step * static_cast<double>(first),
+                        .spacing = step,
+                        .grid_spacing = line.grid_spacing},
+               std::span(nodes));
         for (std::size_t n = 0; n < nodes.size(); ++n) column[n] += up[j] * nodes[n];
     }
     for (std::size_t i = 0; i < heights.size(); ++i) {
