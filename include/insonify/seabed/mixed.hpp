@@ -33,7 +33,7 @@ struct layer {
 ///     mixed{.base = flat{}, .layers = {{ripples{}, patches{.coverage = 0.4f}}, {rock{}, disc{{10, 5}, 8}}}}
 struct mixed {
     any base = flat{};
-    std::vector<layer> layers;  ///< at most 500: each takes some 5 KB of stack while a row is evaluated
+    std::vector<layer> layers;  ///< at most 64: each takes some 5 KB of stack while a row is evaluated
     std::uint64_t seed = 1;     ///< of the outlines; patches of different layers are independent
 
     /// The sampler owns what it needs.
@@ -52,7 +52,7 @@ inline namespace INSONIFY_FLAGS {
 class mixed_sampler {
   public:
     explicit mixed_sampler(const mixed& m) : base_(m.base.prepare()) {
-        detail::require(m.layers.size() <= 500, "mixed.layers.size()", m.layers.size(), "at most 500");
+        detail::require(m.layers.size() <= 64, "mixed.layers.size()", m.layers.size(), "at most 64");
         float relief = m.base.sink_depth();
         for (std::uint32_t i = 0; i < m.layers.size(); ++i) {
             const layer& l = m.layers[i];
