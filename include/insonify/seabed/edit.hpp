@@ -30,7 +30,7 @@ struct flatten {
 /// ground for one: where several overlap, each is 16 times as slow as the one before.
 struct smooth {
     glm::dvec2 centre{0.0, 0.0};
-    float radius = 1;      ///< metres, > 0: with its edge
+    float radius = 1;      ///< metres, > 0 and at most 2^17 lengths: with its edge
     float length = 0.25f;  ///< metres, > 0; rounded to eight bits, so that its multiples are exact
 };
 
@@ -101,6 +101,8 @@ inline ground_rect ground_of(const smooth& e) {
     require_position("smooth.centre", e.centre);
     require_positive_metres("smooth.radius", e.radius);
     require(e.length >= 1e-3f && e.length < 1e6f, "smooth.length", e.length, "metres, at least 0.001 and below 10^6");
+    // A row of the smoothed area takes two arrays of a float for each quarter of a length.
+    require(e.radius <= 0x1p17f * e.length, "smooth.radius", e.radius, "at most 2^17 times smooth.length");
     return rect_around({&e.centre, 1}, static_cast<double>(e.radius));
 }
 inline ground_rect ground_of(const ramp& e) {
