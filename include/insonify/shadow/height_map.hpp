@@ -61,7 +61,7 @@ struct map_placement {
     }
 };
 
-/// An extent that holds everything in a box, a little larger than it has to be.
+/// The bounds, in the light's frame, of a box's eight corners.
 inline map_extent extent_of(const bounding_box& box, const affine& to_world, const light_frame& frame) {
     map_extent extent;
     if (box.empty()) return extent;
