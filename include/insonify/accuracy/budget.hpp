@@ -12,6 +12,7 @@
 #include <insonify/geometry/sphere.hpp>
 
 #include <concepts>
+#include <limits>
 #include <type_traits>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -25,7 +26,7 @@ using budget = errors;
 
 inline namespace INSONIFY_FLAGS {
 
-/// Whether each error is within its budget.
+/// Whether each error is within its budget; errors that are NaN are not.
 inline bool is_within(const errors& found, const budget& tolerated) {
     return found.shadow_edge <= tolerated.shadow_edge && found.silhouette <= tolerated.silhouette &&
            found.height <= tolerated.height && found.intensity <= tolerated.intensity;
@@ -41,8 +42,9 @@ struct settings {
     int subpixel_bits = render_options<Shadow>{}.subpixel_bits;
     double silhouette_error = 1;     ///< tolerance: pixels by which facets of a curved target may displace its outline
     double shadow_edge_error = 0.5;  ///< tolerance: pixels by which they may displace the edge of its shadow
-    errors expected{};               ///< as measured by settings_for
-    overhead rig{};                  ///< that the settings are for
+    /// As measured by settings_for, `silhouette` as tolerated; NaN in named settings.
+    errors expected{not_measured, not_measured, not_measured, not_measured};
+    overhead rig{};  ///< that the settings are for
 
     /// The settings as options of `render`; `settings.options<no_labels>()` without labels.
     template <class Labels = labels, backscatter_law Law = lambert>
@@ -94,6 +96,8 @@ struct settings {
     }
 
   private:
+    static constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
+
     /// A distance across the ray of light that grazes a ball's far side, over that by which it moves the shadow's edge.
     INSONIFY_TAGGED static double across_light(const overhead_geometry& view, const glm::dvec3& centre, double radius) {
         if (!view.has_near_light()) return view.light().to_light().z;

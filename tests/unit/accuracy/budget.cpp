@@ -229,6 +229,10 @@ TEST_CASE("Settings are values: they can be read, changed and handed to render")
     CHECK(acc::settings_for({.silhouette = 0.5}, sb::none{}, t.rig).subpixel_bits ==
           in::render_options<>{}.subpixel_bits);
     CHECK(bare.shadow_edge_error == 0.25);
+
+    // Nothing is measured for named settings.
+    for (const auto& named : {acc::fast(t.rig), acc::balanced(t.rig), acc::exact(t.rig), acc::settings<>{}})
+        CHECK_FALSE(acc::is_within(named.expected, {1e9, 1e9, 1e9, 1e9}));
 }
 
 TEST_CASE("Settings of any picture size are ones that render takes") {
