@@ -41,7 +41,6 @@
 #include <insonify/seabed/area.hpp>
 #include <insonify/seabed/bathymetry.hpp>
 #include <insonify/seabed/blend.hpp>
-#include <insonify/seabed/cover.hpp>
 #include <insonify/seabed/detailed.hpp>
 #include <insonify/seabed/edit.hpp>
 #include <insonify/seabed/heightfield.hpp>

@@ -10256,16 +10256,15 @@ class rock_sampler {
         double outcrop_cell = static_cast<double>(r.outcrop) / 2;
         for (std::uint32_t k = 0; k < 3; ++k, outcrop_cell /= 2)
             outcrops_.push_back(detail::gradient_noise(outcrop_cell, {r.seed, detail::stream::outcrops, k}));
-        // Blocks of half the size are 2^exponent times as many, in four times as many cells.
-        const float widest_spacing = r.block, narrowest_spacing = r.smallest, exponent = r.sizes;
-        const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(exponent) - 2));
-        float share = 1, largest_share = 1, spacing = widest_spacing;
+        // Blocks of half the size are 2^sizes times as many, in four times as many cells.
+        const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(r.sizes) - 2));
+        float share = 1, largest_share = 1, spacing = r.block;
         detail::dynamic_array<float> shares;
-        for (; shares.empty() || spacing >= narrowest_spacing; spacing /= 2, share *= ratio) {
+        for (; shares.empty() || spacing >= r.smallest; spacing /= 2, share *= ratio) {
             shares.push_back(share);
             largest_share = (std::max)(largest_share, share);
         }
-        spacing = widest_spacing;
+        spacing = r.block;
         float height = 0.8f * r.relief;
         for (std::uint32_t k = 0; k < shares.size(); ++k, spacing /= 2, height /= 2) {
             blocks_.push_back({static_cast<double>(spacing),
@@ -10276,7 +10275,12 @@ class rock_sampler {
         }
     }
 
-    void row(const scanline& line, std::span<float> heights) const;
+    void row(const scanline& line, std::span<float> heights) const {
+        detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
+            if (relief_ > 0) detail::add_relief(*this, part, values, best_isa());
+            surface_.add(part, values);
+        });
+    }
 
     height_range range() const {
         double blocks = 0;
@@ -10341,17 +10345,6 @@ class rock_sampler {
 INSONIFY_FUNCTION any_sampler rock::prepare() const {
     return detail::hold_sampler(detail::with_kind<rock_sampler>{rock_sampler(*this), kind});
 }
-
-inline namespace INSONIFY_FLAGS {
-
-inline void rock_sampler::row(const scanline& line, std::span<float> heights) const {
-    detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
-        if (relief_ > 0) detail::add_relief(*this, part, values, best_isa());
-        surface_.add(part, values);
-    });
-}
-
-}  // namespace INSONIFY_FLAGS
 
 #endif
 
@@ -10438,10 +10431,10 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/shadow/light.hpp -----------------------------------------------------------------
 // A parallel light over the sea floor, and the sheared frame in which its shadows are upright.
 //
-// In this frame a point moves along the light until it meets the datum: u = x . travel + z cot(elevation), v across.
-// All points of one ray share (u, v), and of two of them the higher one is nearer to the light. The map from world to
-// frame is affine, so triangles stay triangles; equal steps in (u, v) are equal steps on level ground at every
-// elevation; and level ground is level here too, so it needs no bias.
+// Points are projected onto the datum along the light's rays: u = x . travel + z cot(elevation), v across. All points
+// of one ray share (u, v), and of two of them the higher one is nearer to the light. The map from world to frame is
+// affine, so triangles stay triangles; equal steps in (u, v) are equal steps on level ground at every elevation; and
+// level ground is level here too, so it needs no bias.
 
 #include <variant>
 
@@ -14768,8 +14761,7 @@ draw_stats draw(const mesh_view&, const VertexShader&, const Shader&, const fram
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/shadow/detail/lit_grid.hpp -------------------------------------------------------
-// A regular grid re-indexed so that parallel light crosses its columns in ascending order, and its heights along the
-// light's rays.
+// A regular grid re-indexed so that parallel light crosses its columns in ascending order, and the u of its vertices.
 //
 // In grid steps, all points of a ray have the same u = X + drop z, the X at which the ray meets z = 0.
 
@@ -14848,20 +14840,21 @@ struct lit_grid {
 };
 
 /// u of a grid's vertices, column by column, padded with minus infinity.
-struct grid_heights {
+struct grid_u {
     static constexpr float nothing = -std::numeric_limits<float>::infinity();
     static constexpr int around = 4;  ///< rows of padding on either side
 
     int pitch = 0;
-    insonify::detail::uninitialized_array<float> u;
-    double least = 0, greatest = 0;  ///< bounds of z
+    insonify::detail::uninitialized_array<float> values;
+    double lowest_z = 0, highest_z = 0;  ///< bounds of the vertices
 
     template <executor E>
-    grid_heights(const mesh_view& m, const bounding_box& bounds, const lit_grid& grid, E& ex)
+    grid_u(const mesh_view& m, const bounding_box& bounds, const lit_grid& grid, E& ex)
         : pitch(grid.rows + 2 * around),
-          u(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(pitch), insonify::detail::memory_of(ex)),
-          least(bounds.lower.z),
-          greatest(bounds.upper.z) {
+          values(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(pitch),
+                 insonify::detail::memory_of(ex)),
+          lowest_z(bounds.lower.z),
+          highest_z(bounds.upper.z) {
         // In squares of vertices, so that both reads and writes are contiguous.
         constexpr int square = 64;
         const auto drop = static_cast<float>(grid.drop);
@@ -14888,8 +14881,8 @@ struct grid_heights {
             }
         });
     }
-    const float* column(int x) const { return u.data() + static_cast<std::ptrdiff_t>(x) * pitch + around; }
-    float* column(int x) { return u.data() + static_cast<std::ptrdiff_t>(x) * pitch + around; }
+    const float* column(int x) const { return values.data() + static_cast<std::ptrdiff_t>(x) * pitch + around; }
+    float* column(int x) { return values.data() + static_cast<std::ptrdiff_t>(x) * pitch + around; }
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
@@ -14926,12 +14919,12 @@ struct horizon_bound {
     float lit_above;   ///< points of the column with a larger u are lit; infinity where u does not increase
 };
 
-/// Computes the bounds of adjacent strips, column by column: neighbours read mostly the same heights.
+/// Computes the bounds of adjacent strips, column by column: neighbours read mostly the same u.
 struct horizon_kernel {
     static constexpr int max_strips = 64;
 
     const lit_grid& grid;
-    const grid_heights& heights;
+    const grid_u& u;
     int first_row;      ///< of the first strip, in column 0
     int count, strips;  ///< strips of this call, and of the grid; both multiples of 16
     float margin;       ///< of u
@@ -14953,8 +14946,8 @@ struct horizon_kernel {
                 std::copy_n(now.lit_above, count, of_column + strips);
                 continue;
             }
-            const float* const here = heights_from(x, row, copies[0]);
-            const float* const ahead = heights_from(x + 1, row, copies[1]);
+            const float* const here = u_from(x, row, copies[0]);
+            const float* const ahead = u_from(x + 1, row, copies[1]);
             for (int k = 0; k < count + 2; k += N) find_facing<N>(is_facing + k, here + k, ahead + k, slope);
             for (int k = 0; k < count; k += N) advance<N>(now, k, here + k, ahead + k, is_facing + k, of_column + k);
         }
@@ -14967,19 +14960,18 @@ struct horizon_kernel {
         float dark_below[static_cast<unsigned>(max_strips)], lit_above[static_cast<unsigned>(max_strips)];
 
         bounds_so_far() {
-            std::fill_n(dark_below, max_strips, grid_heights::nothing);
-            std::fill_n(lit_above, max_strips, grid_heights::nothing);
+            std::fill_n(dark_below, max_strips, grid_u::nothing);
+            std::fill_n(lit_above, max_strips, grid_u::nothing);
         }
     };
 
-    /// The heights of a column from a row on; copied and padded where they reach past either end of the column.
-    const float* heights_from(int x, int row, float* copy) const {
+    /// The u of a column from a row on; copied and padded where it reaches past either end of the column.
+    const float* u_from(int x, int row, float* copy) const {
         const bool exists = x < grid.columns;
-        if (exists && row >= -grid_heights::around && row + room <= grid.rows + grid_heights::around)
-            return heights.column(x) + row;
-        std::fill_n(copy, room, grid_heights::nothing);
+        if (exists && row >= -grid_u::around && row + room <= grid.rows + grid_u::around) return u.column(x) + row;
+        std::fill_n(copy, room, grid_u::nothing);
         const int first = (std::max)(row, 0), last = (std::min)(row + room, grid.rows);
-        if (exists && first < last) std::copy_n(heights.column(x) + first, last - first, copy + (first - row));
+        if (exists && first < last) std::copy_n(u.column(x) + first, last - first, copy + (first - row));
         return copy;
     }
 
@@ -14998,8 +14990,8 @@ struct horizon_kernel {
             upper = (d - c) + slope * (d - b);
         }
         // Cells outside of the grid do not shade.
-        const ints is_cell = ints(a > grid_heights::nothing) & ints(b > grid_heights::nothing) &
-                             ints(c > grid_heights::nothing) & ints(d > grid_heights::nothing);
+        const ints is_cell = ints(a > grid_u::nothing) & ints(b > grid_u::nothing) & ints(c > grid_u::nothing) &
+                             ints(d > grid_u::nothing);
         const ints up = ints(lower > margin) & ints(upper > margin);
         store(into, ints(up | ints(is_cell == 0)));
     }
@@ -15012,16 +15004,16 @@ struct horizon_kernel {
         using namespace insonify::detail;
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
-        floats dark_below, lit_above, lowest, highest, next;
+        floats dark_below, lit_above, smallest, largest, next;
         ints is_facing;
         load(dark_below, now.dark_below + k), load(lit_above, now.lit_above + k);
-        load(lowest, here), load(is_facing, facing_of);
-        highest = lowest;
+        load(smallest, here), load(is_facing, facing_of);
+        largest = smallest;
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             floats other;
             load(other, here + i + 1);
-            if (i < 2) lowest = other < lowest ? other : lowest;
-            highest = other > highest ? other : highest;
+            if (i < 2) smallest = other < smallest ? other : smallest;
+            largest = other > largest ? other : largest;
         });
         unroll<2>([&](int i) INSONIFY_INLINE_LAMBDA {
             ints other;
@@ -15029,9 +15021,9 @@ struct horizon_kernel {
             is_facing = is_facing & other;
         });
         // Every ray of the strip meets the column between rows `row` and `row + 2`.
-        dark_below = lowest > dark_below ? lowest : dark_below;
+        dark_below = smallest > dark_below ? smallest : dark_below;
         // Where u does not increase, these cells may shade points in them and after, on the next column too.
-        next = highest;
+        next = largest;
         unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA {
             floats other;
             load(other, ahead + i);
@@ -15055,11 +15047,11 @@ class horizon_bounds {
     horizon_bounds(const mesh_view& m, const bounding_box& box, const regular_grid& lattice, const glm::dvec3& travel,
                    isa level, E& ex)
         : grid_(lattice, travel),
-          heights_(m, box, grid_, ex),
+          u_(m, box, grid_, ex),
           lattice_error_(2 * lattice.off + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
-        const double greatest = heights_.greatest, least = heights_.least;
-        const double relief = grid_.drop * (greatest - least);
-        const double size = grid_.columns + grid_.drop * (std::max)(numeric::abs(greatest), numeric::abs(least));
+        const double relief = grid_.drop * (u_.highest_z - u_.lowest_z);
+        const double size =
+            grid_.columns + grid_.drop * (std::max)(numeric::abs(u_.highest_z), numeric::abs(u_.lowest_z));
         margin_ = 0x1p-21 * size + 4 * lattice.off * (2 + relief);
         first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
         strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;
@@ -15069,7 +15061,7 @@ class horizon_bounds {
         bulk_ranges(
             ex, static_cast<std::size_t>(strips_), horizon_kernel::max_strips, [&](std::size_t from, std::size_t to) {
                 insonify::detail::dispatch(
-                    horizon_kernel{grid_, heights_, first_strip_ + static_cast<int>(from), static_cast<int>(to - from),
+                    horizon_kernel{grid_, u_, first_strip_ + static_cast<int>(from), static_cast<int>(to - from),
                                    strips_, static_cast<float>(margin_), bounds_.data() + from},
                     level);
             });
@@ -15112,7 +15104,7 @@ class horizon_bounds {
     }
 
     const lit_grid& grid() const { return grid_; }
-    const grid_heights& heights() const { return heights_; }
+    const grid_u& u() const { return u_; }
     /// Error bound of u, in columns.
     double margin() const { return margin_; }
     /// Bound of the distance of vertices from their lattice points, along the light or across, in steps, with a margin.
@@ -15133,7 +15125,7 @@ class horizon_bounds {
 
   private:
     lit_grid grid_;
-    grid_heights heights_;
+    grid_u u_;
     double lattice_error_, margin_ = 0;
     int first_strip_ = 0, strips_ = 0;
     insonify::detail::uninitialized_array<float> bounds_;
@@ -15235,7 +15227,7 @@ INSONIFY_ARITHMETIC_END
 // Decides whole triangles of a regular grid, lit or dark, by the bounds of their horizon.
 //
 // Within a cell, u (horizon_bounds.hpp) lies between its values at the corners. A triangle is dark if its largest u is
-// below the lower bounds of its strips, and lit if its least u is above the upper bounds. Pixels that show such a
+// below the lower bounds of its strips, and lit if its smallest u is above the upper bounds. Pixels that show such a
 // triangle need no test of their point. This holds for the upper side, which the camera sees if it is above the
 // triangle's plane.
 
@@ -15289,7 +15281,7 @@ class horizon_triangles {
         eye_ = grid_.steps(glm::dvec2(eye));
         eye_u_ = eye_.x + grid_.drop * eye.z;
         // The sine is u's slope along the light, times the light's own sine, over the length of the facet's normal.
-        const double relief = horizon.heights().greatest - horizon.heights().least;
+        const double relief = horizon.u().highest_z - horizon.u().lowest_z;
         const auto square_of = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
         const double steps_a_metre = numeric::square_root((std::max)(square_of(grid_.x_of), square_of(grid_.y_of)));
         const double steepest = 1 + 2 * relief * steps_a_metre;
@@ -15323,17 +15315,17 @@ class horizon_triangles {
     void forget(const glm::dvec2& lower, const glm::dvec2& upper, int first_column, int last_column,
                 decision* into) const {
         // These columns and, in each, these rows hold all points of such rays within the relief.
-        const double least = horizon_.heights().least, greatest = horizon_.heights().greatest;
+        const double lowest_z = horizon_.u().lowest_z, highest_z = horizon_.u().highest_z;
         const double tolerance = 0x1p-8 + horizon_.margin();  // covers rounding
         const auto clamped = [](double at, int first, int last) {
             return static_cast<int>((std::min)((std::max)(at, static_cast<double>(first)), static_cast<double>(last)));
         };
-        const int left = clamped(lower.x - grid_.drop * greatest - tolerance - 1, first_column, last_column),
-                  right = clamped(upper.x - grid_.drop * least + tolerance + 1, first_column, last_column);
+        const int left = clamped(lower.x - grid_.drop * highest_z - tolerance - 1, first_column, last_column),
+                  right = clamped(upper.x - grid_.drop * lowest_z + tolerance + 1, first_column, last_column);
         for (int x = left; x < right; ++x) {
             const int bottom = clamped(lower.y - grid_.slope * (upper.x - x) - tolerance - 2, 0, grid_.rows - 1),
                       top = clamped(upper.y - grid_.slope * (lower.x - x - 1) + tolerance + 2, 0, grid_.rows - 1);
-            const float *const here = horizon_.heights().column(x), *const ahead = horizon_.heights().column(x + 1);
+            const float *const here = horizon_.u().column(x), *const ahead = horizon_.u().column(x + 1);
             for (int y = bottom; y < top; ++y) {
                 const auto low = static_cast<double>((std::min)({here[y], here[y + 1], ahead[y], ahead[y + 1]})),
                            high = static_cast<double>((std::max)({here[y], here[y + 1], ahead[y], ahead[y + 1]}));
@@ -15387,21 +15379,21 @@ class horizon_triangles {
             const horizon_bounds& horizon = whole.horizon_;
             const lit_grid& grid = whole.grid_;
             floats a, b, c, d;  // (0,0) (1,0) (0,1) (1,1)
-            load(a, horizon.heights().column(x) + y);
-            load(c, horizon.heights().column(x) + y + 1);
-            load(b, horizon.heights().column(x + 1) + y);
-            load(d, horizon.heights().column(x + 1) + y + 1);
+            load(a, horizon.u().column(x) + y);
+            load(c, horizon.u().column(x) + y + 1);
+            load(b, horizon.u().column(x + 1) + y);
+            load(d, horizon.u().column(x + 1) + y + 1);
             // The strips that the cells lie in.
             constexpr double tolerance = 0x1p-8;
             const double from = y - horizon.first_strip() - grid.slope * x;
             floats dark_below = floats{} + std::numeric_limits<float>::infinity(), lit_above = 0.0f - dark_below;
             const int last = static_cast<int>(from + 1 + tolerance);
             for (int strip = static_cast<int>(from - grid.slope - tolerance); strip <= last; ++strip) {
-                floats least, most;
-                load(least, horizon.dark_below(x) + strip);
-                load(most, horizon.lit_above(x) + strip);
-                dark_below = least < dark_below ? least : dark_below;
-                lit_above = most > lit_above ? most : lit_above;
+                floats smallest, largest;
+                load(smallest, horizon.dark_below(x) + strip);
+                load(largest, horizon.lit_above(x) + strip);
+                dark_below = smallest < dark_below ? smallest : dark_below;
+                lit_above = largest > lit_above ? largest : lit_above;
             }
             const auto margin = static_cast<float>(horizon.margin());
             dark_below = dark_below - margin;
@@ -15442,14 +15434,14 @@ class horizon_triangles {
         /// @param base              u of its plane at the cell's corner (0, 0)
         INSONIFY_INLINE void operator()(ints& answer, const floats& p, const floats& q, const floats& r,
                                         const floats& along_x, const floats& along_y, const floats& base) const {
-            floats highest = p > q ? p : q, lowest = p < q ? p : q;
-            highest = highest > r ? highest : r;
-            lowest = lowest < r ? lowest : r;
+            floats largest = p > q ? p : q, smallest = p < q ? p : q;
+            largest = largest > r ? largest : r;
+            smallest = smallest < r ? smallest : r;
             const floats rise = along_x + slope * along_y;
             const ints is_above = ints(base + along_x * dx + along_y * dy < eye);
             const ints is_facing = ints(rise > enough), is_averted = ints(rise < 0.0f - enough);
-            const ints is_dark = (is_above & is_averted) | ((is_above | is_facing) & ints(highest < dark_below));
-            const ints is_lit = is_above & is_facing & ints(lowest > lit_above);
+            const ints is_dark = (is_above & is_averted) | ((is_above | is_facing) & ints(largest < dark_below));
+            const ints is_lit = is_above & is_facing & ints(smallest > lit_above);
             answer = is_lit ? ints{} + static_cast<std::int32_t>(decision::lit)
                             : ints{} + static_cast<std::int32_t>(decision::undecided);
             answer = is_dark ? ints{} + static_cast<std::int32_t>(decision::dark) : answer;
@@ -15487,38 +15479,38 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 using insonify::detail::dynamic_array;
 
 /// The largest u of macrocells: `side` x `side` cells each.
-class macrocell_heights {
+class macrocell_u {
   public:
     static constexpr int side = 4;  ///< cells
 
     template <executor E>
-    macrocell_heights(const lit_grid& grid, const grid_heights& heights, isa level, E& ex)
+    macrocell_u(const lit_grid& grid, const grid_u& u, isa level, E& ex)
         : columns_((grid.columns - 2) / side + 1), rows_((grid.rows - 2) / side + 1) {
-        highest_ = insonify::detail::uninitialized_array<float>(
+        largest_ = insonify::detail::uninitialized_array<float>(
             static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), insonify::detail::memory_of(ex));
         bulk_ranges(ex, static_cast<std::size_t>(columns_), 4, [&](std::size_t from, std::size_t to) {
             dynamic_array<float> row(static_cast<std::size_t>(grid.rows));
             for (auto column = static_cast<int>(from); column < static_cast<int>(to); ++column)
-                insonify::detail::dispatch(kernel{grid, heights, column * side, row.data(),
-                                                  highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_, rows_},
+                insonify::detail::dispatch(kernel{grid, u, column * side, row.data(),
+                                                  largest_.data() + static_cast<std::ptrdiff_t>(column) * rows_, rows_},
                                            level);
         });
     }
 
     /// The largest u of the vertices of the cells in a column of macrocells, between two rows of cells.
-    float highest(int column, int first_row, int last_row) const {
-        const float* const macrocells = highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_;
+    float largest_u(int column, int first_row, int last_row) const {
+        const float* const macrocells = largest_.data() + static_cast<std::ptrdiff_t>(column) * rows_;
         const int first = (std::max)(first_row / side, 0), last = (std::min)(last_row / side, rows_ - 1);
-        float highest = grid_heights::nothing;
-        for (int i = first; i <= last; ++i) highest = (std::max)(highest, macrocells[i]);
-        return highest;
+        float largest = grid_u::nothing;
+        for (int i = first; i <= last; ++i) largest = (std::max)(largest, macrocells[i]);
+        return largest;
     }
 
   private:
     /// One column of macrocells.
     struct kernel {
         const lit_grid& grid;
-        const grid_heights& heights;
+        const grid_u& u;
         int first;   ///< column of vertices
         float* row;  ///< room for the largest u of each row
         float* into;
@@ -15528,37 +15520,37 @@ class macrocell_heights {
         INSONIFY_INLINE void run() const {
             const int last = (std::min)(first + side, grid.columns - 1);
             int y = 0;
-            for (; y + N <= grid.rows; y += N) highest_of<N>(y, last);
-            for (; y < grid.rows; ++y) highest_of<1>(y, last);
+            for (; y + N <= grid.rows; y += N) largest_of<N>(y, last);
+            for (; y < grid.rows; ++y) largest_of<1>(y, last);
             for (int macrocell = 0; macrocell < macrocells; ++macrocell) {
                 const int low = macrocell * side, high = (std::min)(low + side, grid.rows - 1);
-                float highest = row[low];
-                for (int i = low + 1; i <= high; ++i) highest = (std::max)(highest, row[i]);
-                into[macrocell] = highest;
+                float largest = row[low];
+                for (int i = low + 1; i <= high; ++i) largest = (std::max)(largest, row[i]);
+                into[macrocell] = largest;
             }
         }
         template <int N>
-        INSONIFY_INLINE void highest_of(int y, int last) const {
+        INSONIFY_INLINE void largest_of(int y, int last) const {
             using namespace insonify::detail;
-            lanes<float, N> highest, other;
-            load(highest, heights.column(first) + y);
+            lanes<float, N> largest, other;
+            load(largest, u.column(first) + y);
             for (int x = first + 1; x <= last; ++x) {
-                load(other, heights.column(x) + y);
-                highest = other > highest ? other : highest;
+                load(other, u.column(x) + y);
+                largest = other > largest ? other : largest;
             }
-            store(row + y, highest);
+            store(row + y, largest);
         }
     };
 
     int columns_, rows_;
-    insonify::detail::uninitialized_array<float> highest_;
+    insonify::detail::uninitialized_array<float> largest_;
 };
 
 /// The walk along one ray.
 class horizon_walk {
   public:
     /// @param p  origin of the ray, in the mesh's frame
-    horizon_walk(const horizon_bounds& horizon, const macrocell_heights& macrocells, const glm::dvec3& p)
+    horizon_walk(const horizon_bounds& horizon, const macrocell_u& macrocells, const glm::dvec3& p)
         : horizon_(horizon),
           macrocells_(macrocells),
           grid_(horizon.grid()),
@@ -15584,7 +15576,7 @@ class horizon_walk {
 
     /// u on the edges that the ray crosses in one column of cells.
     struct crossing {
-        double lowest = infinity, highest = -infinity;
+        double smallest = infinity, largest = -infinity;
         double certain = -infinity;  ///< the largest u that certainly lies before the point
     };
 
@@ -15601,15 +15593,14 @@ class horizon_walk {
             return false;
         for (const double x : {x_ - lattice_error_, x_ + lattice_error_})
             for (int row = clamped_row(y - lattice_error_); row <= clamped_row(y + lattice_error_); ++row)
-                if (!(highest((std::min)(static_cast<int>(x), grid_.columns - 2), row, row) < u_ - horizon_.margin()))
+                if (!(largest_u((std::min)(static_cast<int>(x), grid_.columns - 2), row, row) < u_ - horizon_.margin()))
                     return false;
         return true;
     }
     /// The largest u of the corners of some cells of a column.
-    double highest(int column, int first_row, int last_row) const {
-        const float *const here = horizon_.heights().column(column), *const ahead =
-                                                                         horizon_.heights().column(column + 1);
-        float largest = grid_heights::nothing;
+    double largest_u(int column, int first_row, int last_row) const {
+        const float *const here = horizon_.u().column(column), *const ahead = horizon_.u().column(column + 1);
+        float largest = grid_u::nothing;
         for (int y = first_row; y <= last_row + 1; ++y) largest = (std::max)({largest, here[y], ahead[y]});
         return static_cast<double>(largest);
     }
@@ -15618,36 +15609,36 @@ class horizon_walk {
     template <class Decide>
     bool walk(bool is_above, const Decide& decide) const {
         const double u_lower_bound = u_ - horizon_.margin();
-        const auto greatest = static_cast<double>(horizon_.heights().greatest);
+        const double highest_z = horizon_.u().highest_z;
         if (!(x_ + lattice_error_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
         int column = static_cast<int>((std::min)(x_ + lattice_error_, static_cast<double>(grid_.columns - 2)));
         for (bool is_first = true; column >= 0; --column, is_first = false) {
             // Rows of cells that the ray crosses in this column.
             const double low = row_at(column), high = low + grid_.slope;
-            if (high < -lattice_error_ || column + 1 + grid_.drop * greatest < u_lower_bound) return false;
+            if (high < -lattice_error_ || column + 1 + grid_.drop * highest_z < u_lower_bound) return false;
             if (!is_first && is_above) {
                 const decision rest = decide_before(column);
                 if (rest != decision::undecided) return rest == decision::dark;
             }
-            if (!is_first && column % macrocell_heights::side == macrocell_heights::side - 1) {
-                const int before = column - (macrocell_heights::side - 1);
-                const float highest_before =
-                    macrocells_.highest(before / macrocell_heights::side, clamped_row(row_at(before) - lattice_error_),
-                                        clamped_row(high + lattice_error_));
-                if (static_cast<double>(highest_before) < u_lower_bound) {
+            if (!is_first && column % macrocell_u::side == macrocell_u::side - 1) {
+                const int before = column - (macrocell_u::side - 1);
+                const float largest_before =
+                    macrocells_.largest_u(before / macrocell_u::side, clamped_row(row_at(before) - lattice_error_),
+                                          clamped_row(high + lattice_error_));
+                if (static_cast<double>(largest_before) < u_lower_bound) {
                     column = before;
                     continue;
                 }
             }
             if (low > grid_.rows - 1 + lattice_error_) continue;
             const int first_row = clamped_row(low - lattice_error_), last_row = clamped_row(high + lattice_error_);
-            if (highest(column, first_row, last_row) < u_lower_bound) continue;
+            if (largest_u(column, first_row, last_row) < u_lower_bound) continue;
             const double limit = is_above ? x_ - column : 2;
             if (low >= lattice_error_ && high <= grid_.rows - 1 - lattice_error_) {
                 const crossing crossed = cross(column, limit);
-                if (crossed.highest < u_lower_bound) continue;
+                if (crossed.largest < u_lower_bound) continue;
                 if (is_above && crossed.certain > u_ + horizon_.margin()) return true;
-                if (!is_above && crossed.lowest > u_ + horizon_.margin()) continue;
+                if (!is_above && crossed.smallest > u_ + horizon_.margin()) continue;
             } else {
                 // Close to the border, whose vertices may lie off the lattice, the ray may leave the grid and enter
                 // it again below the surface.
@@ -15676,9 +15667,8 @@ class horizon_walk {
     crossing cross(int column, double limit) const {
         const double slope = grid_.slope, low = row_at(column);
         const int row = static_cast<int>(low);
-        const float *const here = horizon_.heights().column(column) + row, *const ahead =
-                                                                               horizon_.heights().column(column + 1) +
-                                                                               row;
+        const float *const here = horizon_.u().column(column) + row, *const ahead =
+                                                                         horizon_.u().column(column + 1) + row;
         const auto a = static_cast<double>(here[0]), b = static_cast<double>(ahead[0]),
                    c = static_cast<double>(here[1]), d = static_cast<double>(ahead[1]);
         crossing found;
@@ -15686,8 +15676,8 @@ class horizon_walk {
         const auto add = [&](double s, double first, double last, double t) {
             if (s > limit + lattice_error_) return;
             const double u = first + t * (last - first);
-            found.lowest = (std::min)(found.lowest, u);
-            found.highest = (std::max)(found.highest, u);
+            found.smallest = (std::min)(found.smallest, u);
+            found.largest = (std::max)(found.largest, u);
             if (s <= limit - lattice_error_) found.certain = (std::max)(found.certain, u);
         };
         const double start = low - row, end = start + slope, up = (1 - start) / slope;
@@ -15710,7 +15700,7 @@ class horizon_walk {
     }
 
     const horizon_bounds& horizon_;
-    const macrocell_heights& macrocells_;
+    const macrocell_u& macrocells_;
     const lit_grid& grid_;
     double x_, w_, u_;
     double lattice_error_;
@@ -15740,7 +15730,7 @@ class grid_caster {
           to_mesh_(inverse(c.placement)),
           travel_(transform_direction(to_mesh_, -frame.to_light())),
           bounds_(mesh_, c.box, *c.grid, travel_, level, ex),
-          macrocells_(bounds_.grid(), bounds_.heights(), level, ex) {}
+          macrocells_(bounds_.grid(), bounds_.u(), level, ex) {}
 
     /// Decides points [first, last), which lie on this caster and face the light, where the horizon's bounds suffice.
     /// @param into  results, from that of point `first` on
@@ -15803,7 +15793,7 @@ class grid_caster {
     affine to_mesh_;
     glm::dvec3 travel_;  ///< of the light, in the mesh's frame
     horizon_bounds bounds_;
-    macrocell_heights macrocells_;
+    macrocell_u macrocells_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
@@ -16219,7 +16209,7 @@ class receiver_cells {
               const glm::vec2& size) {
         const std::size_t count = from.size();
         int side = 1;
-        while (side < widest && static_cast<std::size_t>(side * side) * per_cell < count) side *= 2;
+        while (side < widest && static_cast<std::size_t>(side * side) * per_two_cells < count) side *= 2;
         columns_ = 2 * side;
         rows_ = side;
         lower_ = lower;
@@ -16298,8 +16288,8 @@ class receiver_cells {
     dynamic_array<std::int32_t> caster;     ///< that blocks it, or open, or closed
 
   private:
-    static constexpr int widest = 128;          // rows
-    static constexpr std::size_t per_cell = 2;  ///< largest mean number of receivers in two cells, up to widest rows
+    static constexpr int widest = 128;               // rows
+    static constexpr std::size_t per_two_cells = 2;  // largest mean number of receivers, up to widest rows
     static constexpr std::size_t padding = 16;
 
     int column(float at) const { return clamped((at - lower_.x) * scale_.x, columns_); }
@@ -16641,7 +16631,7 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 class points_by_tile {
   public:
     /// Sorts points by tile and sets all results in `into` to lit, which is final where no caster touches the tile.
-    /// @param planes  not empty; outlives this
+    /// @param planes  outlives this; without planes all points are lit
     template <executor E>
     points_by_tile(const tiled_planes& planes, std::span<const points> at, std::span<const results> into, E& ex)
         : planes_(planes) {
@@ -16852,8 +16842,8 @@ class exact_occlusion {
         for (int i = 0; i < 3 && !bounds.empty(); ++i) reach = (std::max)({reach, -bounds.lower[i], bounds.upper[i]});
         return reach;
     }
-    /// Whether a caster is a grid that needs no list of triangles under parallel light. Parts of a wide light may lie
-    /// below the grid's plane although its centre does not.
+    /// Whether a caster is a grid lit from above its own plane: then horizon bounds replace its list of triangles.
+    /// Checked for each sample of a wide light, since some may lie below that plane.
     static bool has_horizon(const caster& c, const light_frame& frame) {
         return c.grid != nullptr && c.may_skip == skip::facing_its_own &&
                transform_direction(inverse(c.placement), frame.to_light()).z > 0;
@@ -18211,7 +18201,7 @@ class row_normals {
           z_(2 * static_cast<float>(field.spacing)),
           out_(out) {}
 
-    void compute(isa level = best_isa()) const { insonify::detail::dispatch(*this, level); }
+    void compute() const { insonify::detail::dispatch(*this, best_isa()); }
 
     template <int N>
     INSONIFY_INLINE void run() const {
@@ -19080,8 +19070,7 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/accuracy/seabed_probe.hpp --------------------------------------------------------
 // Measures the errors of pictures of a seabed on a few small ones.
 //
-// The ground truth of shadows is a ray per pixel, marched over the finest grid. It shares no code with any shadow
-// policy.
+// The ground truth is a picture of the finest grid, with exact shadows in place of maps.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -19103,7 +19092,7 @@ inline namespace INSONIFY_FLAGS {
 struct probe {
     int chips = 4;              ///< their number, distributed over the large picture
     int pixels = 128;           ///< along a side
-    double finest = 4;          ///< cells per pixel of the ground truth
+    double finest = 4;          ///< cells per pixel of the ground truth, and the most that settings take
     double usable_share = 0.7;  ///< fraction of the budget that they may use; the rest is for other parts of the seabed
 };
 
@@ -19121,8 +19110,11 @@ inline int max_subpixel_bits(const overhead& rig) {
 /// Small pictures of a seabed with their ground truth.
 class seabed_probe {
   public:
-    template <executor E>
-    seabed_probe(const seabed::any& bottom, const overhead& rig, const accuracy::probe& how, E& ex) : how_(how) {
+    /// @param shadow  of the ground truth
+    template <class Shadow, executor E>
+    seabed_probe(const seabed::any& bottom, const overhead& rig, const accuracy::probe& how, const Shadow& shadow,
+                 E& ex)
+        : how_(how) {
         scene_.seabed = bottom;
         const overhead_geometry view(rig);
         pixels_ = (std::min)(how.pixels, (std::min)(rig.size.x, rig.size.y));
@@ -19145,9 +19137,7 @@ class seabed_probe {
             const double half = view.half_extent(0).x * pixels_ / rig.size.x;
             chip.field_of_view = static_cast<float>(2 * numeric::atan2(half, static_cast<double>(rig.altitude)));
             chips_.push_back(chip);
-            picture truth = draw(chip, how.finest, shadow::exact{}, ex);
-            truth.dark = march(chip, ex);
-            truths_.push_back(std::move(truth));
+            truths_.push_back(draw(chip, how.finest, shadow, ex));
         }
     }
 
@@ -19191,63 +19181,6 @@ class seabed_probe {
         return {std::move(drawn.image), map_pixels(drawn.labels.shadow, [](std::uint16_t by) {
                     return static_cast<std::uint8_t>(by != labels::is_lit);
                 })};
-    }
-
-    /// Pixels in shadow, by a ray from each towards the light over the finest grid, in steps of a cell.
-    template <executor E>
-    image<std::uint8_t> march(const overhead& chip, E& ex) const {
-        const overhead_geometry view(chip);
-        const double half = view.half_extent(0).x;
-        const glm::dmat3 turn = glm::transpose(view.rig_from({}).linear);
-        const auto world = [&](const glm::dvec3& v) { return numeric::product(turn, v); };
-        const bool is_near = view.has_near_light();
-        const glm::dvec3 light =
-            is_near ? world(view.light_position()) + glm::dvec3(chip.position, 0) : world(view.light().to_light());
-
-        // The ground in view and as much towards the light.
-        const glm::dvec2 low = chip.position - 4 * half;
-        seabed::grid grid = seabed::grid_over(low, low + 8 * half, spacing_);
-        grid.band_limited = true;
-        const seabed::heightfield field = seabed::sample(scene_.seabed, grid, ex);
-        double top = -std::numeric_limits<double>::infinity();
-        for (const float h : field.heights.pixels())
-            if (numeric::is_finite(h)) top = (std::max)(top, static_cast<double>(h));
-
-        image<std::uint8_t> dark(chip.size.x, chip.size.y);
-        ex.bulk(static_cast<std::size_t>(chip.size.y), [&](std::size_t row) {
-            const int j = static_cast<int>(row);
-            for (int i = 0; i < chip.size.x; ++i) {
-                const glm::dvec3 in_rig((2.0 * i + 1 - chip.size.x) / chip.size.x * half,
-                                        (chip.size.y - 2.0 * j - 1) / chip.size.x * half, 0);
-                const glm::dvec2 datum(world(in_rig));
-                glm::dvec2 at = chip.position + datum;
-                // Perspective moves raised ground away from the middle; on narrow chips a few iterations converge.
-                for (int k = 0; k < 6; ++k) {
-                    const double height = field.facet_at(at.x, at.y).height;
-                    at = chip.position + datum * (1 - height / static_cast<double>(chip.altitude));
-                }
-                dark(i, j) = is_dark(field, at, light, is_near, top) ? 1 : 0;
-            }
-        });
-        return dark;
-    }
-
-    /// @param light  the position of a near light, or the direction to a distant one
-    static bool is_dark(const seabed::heightfield& field, const glm::dvec2& at, const glm::dvec3& light, bool is_near,
-                        double top) {
-        const auto facet = field.facet_at(at.x, at.y);
-        const glm::dvec3 toward = is_near ? light - glm::dvec3(at, facet.height) : light;
-        const double level = numeric::square_root(toward.x * toward.x + toward.y * toward.y);
-        if (level <= 1e-7 * numeric::abs(toward.z)) return false;  // the zenith
-        const glm::dvec2 travel(-toward.x / level, -toward.y / level);
-        const double tangent = toward.z / level;
-        if (field.spacing * tangent + facet.rise_x * travel.x + facet.rise_y * travel.y <= 0) return true;
-        for (double away = 0.01 * field.spacing;; away += field.spacing) {
-            const double ray = facet.height + away * tangent;
-            if (!(ray <= top) || (is_near && away > level)) return false;
-            const glm::dvec2 below = at - away * travel;
-            if (field.facet_at(below.x, below.y).height > ray + 1e-7) return true;
-        }
     }
 
     /// Of a grid against the finest one, over a lattice of points; in square metres.
@@ -19298,9 +19231,9 @@ INSONIFY_ARITHMETIC_END
 // Chooses the cheapest settings whose errors stay within a budget.
 //
 // The tolerance for a curved target's facets has a closed form in the positions of camera and light. Errors that depend
-// on the seabed are measured: a few small pictures are compared with marched rays, from coarse to fine, and the first
-// ones within the budget decide. That takes as long as a few large pictures, once for all pictures of a rig and a kind
-// of seabed.
+// on the seabed are measured: a few small pictures are compared with ones of the finest grid, from coarse to fine, and
+// the first ones within the budget decide. That takes as long as a few large pictures, once for all pictures of a rig
+// and a kind of seabed.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -19313,7 +19246,7 @@ using budget = errors;
 
 inline namespace INSONIFY_FLAGS {
 
-/// Whether each error is within its budget.
+/// Whether each error is within its budget; errors that are NaN are not.
 inline bool is_within(const errors& found, const budget& tolerated) {
     return found.shadow_edge <= tolerated.shadow_edge && found.silhouette <= tolerated.silhouette &&
            found.height <= tolerated.height && found.intensity <= tolerated.intensity;
@@ -19329,8 +19262,9 @@ struct settings {
     int subpixel_bits = render_options<Shadow>{}.subpixel_bits;
     double silhouette_error = 1;     ///< tolerance: pixels by which facets of a curved target may displace its outline
     double shadow_edge_error = 0.5;  ///< tolerance: pixels by which they may displace the edge of its shadow
-    errors expected{};               ///< as measured by settings_for
-    overhead rig{};                  ///< that the settings are for
+    /// As measured by settings_for, `silhouette` as tolerated; NaN in named settings.
+    errors expected{not_measured, not_measured, not_measured, not_measured};
+    overhead rig{};  ///< that the settings are for
 
     /// The settings as options of `render`; `settings.options<no_labels>()` without labels.
     template <class Labels = labels, backscatter_law Law = lambert>
@@ -19382,6 +19316,8 @@ struct settings {
     }
 
   private:
+    static constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
+
     /// A distance across the ray of light that grazes a ball's far side, over that by which it moves the shadow's edge.
     INSONIFY_TAGGED static double across_light(const overhead_geometry& view, const glm::dvec3& centre, double radius) {
         if (!view.has_near_light()) return view.light().to_light().z;
@@ -19439,12 +19375,17 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         return found;
     }
 
-    const detail::seabed_probe probed(bottom, rig, how, ex);
+    // Maps are compared with exact shadows, the other policies with themselves on the finest grid.
+    constexpr bool has_map = requires {
+        found.shadow.texels_per_pixel;
+    };
+    using truth = std::conditional_t<has_map, insonify::shadow::exact, Shadow>;
+    const detail::seabed_probe probed(bottom, rig, how, truth{}, ex);
     const double pixel = view.ground_sampling();
     const int longer = (std::max)(rig.size.x, rig.size.y);
     const auto errors_of = [&](double cells_per_pixel, double texels) {
         Shadow policy{};
-        if constexpr (requires { policy.texels_per_pixel; }) policy.texels_per_pixel = static_cast<float>(texels);
+        if constexpr (has_map) policy.texels_per_pixel = static_cast<float>(texels);
         errors all = probed.errors_of(cells_per_pixel, policy, ex);
         all.height /= pixel;
         // An error of height h displaces the shadow of a target by h cot(elevation).
@@ -19477,7 +19418,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
 
     double texels = is_enough ? (std::min)(0.5, many_texels) : many_texels;
     found.expected = errors_of(chosen, texels);
-    if constexpr (requires { found.shadow.texels_per_pixel; }) {
+    if constexpr (has_map) {
         while (texels < many_texels && !is_within(found.expected, usable)) {
             texels = (std::min)(2 * texels, many_texels);
             found.expected = errors_of(chosen, texels);
@@ -22442,16 +22383,19 @@ inline double signed_distance(const disc& d, const glm::dvec2& p) {
 inline double signed_distance(const band& b, const glm::dvec2& p) {
     return 0.5 * static_cast<double>(b.width) - distance_to_path(p, b.path);
 }
-inline double signed_distance(const polygon& shape, const glm::dvec2& p) {
+inline double signed_distance(const std::vector<glm::dvec2>& corners, const glm::dvec2& p) {
     bool odd = false;
-    double square = square_distance(p, shape.corners.back(), shape.corners.front());
-    for (std::size_t i = 0; i < shape.corners.size(); ++i) {
-        const glm::dvec2 &a = shape.corners[i], &b = shape.corners[i + 1 < shape.corners.size() ? i + 1 : 0];
+    double square = square_distance(p, corners.back(), corners.front());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const glm::dvec2 &a = corners[i], &b = corners[i + 1 < corners.size() ? i + 1 : 0];
         square = (std::min)(square, square_distance(p, a, b));
         if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
     }
     const double distance = numeric::square_root(square);
     return odd ? distance : -distance;
+}
+inline double signed_distance(const polygon& shape, const glm::dvec2& p) {
+    return signed_distance(shape.corners, p);
 }
 /// Signed distances of a stencil's pixels from its border, in pixels. Each pixel takes the nearest of the points where
 /// the border crosses the lattice that its neighbours have found, in a sweep down and one up: Per-Erik Danielsson.
@@ -22983,17 +22927,50 @@ inline heightfield fill_gaps(heightfield field, int reach = 1 << 30) {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/seabed/cover.hpp -----------------------------------------------------------------
-// Composites one seabed over another with a natural border: high ground is buried last.
+// ------------ insonify/seabed/mixed.hpp -----------------------------------------------------------------
+// Layered seabeds: models composited over a base, each within its area, with a label at every point.
 //
-// Across a border the layer rises through the ground below: its crests emerge first, as narrow tips, while its troughs
-// are still filled; the highest parts of the ground disappear last. Labels are those of the upper surface.
+// High ground is buried last: across a border the layer rises through the ground below. Its crests emerge first, as
+// narrow tips, while its troughs are still filled; the highest parts of the ground disappear last. Labels are those of
+// the upper surface.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
+
+inline namespace INSONIFY_FLAGS {
+
+class mixed_sampler;
+
+}  // namespace INSONIFY_FLAGS
+
+/// One bottom of a `mixed` seabed.
+struct layer {
+    any bottom = ripples{};
+    area where = patches{};
+    float border = 0.6f;  ///< metres, from 0.001: width of the border, about a ripple or two
+    float ragged = 0.5f;  ///< metres, 0 to 10^5: rms deviation of a shape's outline; patches ignore it
+};
+
+/// Layers on a base, from the lowest to the highest.
+///
+///     mixed{.base = flat{}, .layers = {{ripples{}, patches{.coverage = 0.4f}}, {rock{}, disc{{10, 5}, 8}}}}
+struct mixed {
+    any base = flat{};
+    std::vector<layer> layers;  ///< at most 64: each takes some 5 KB of stack while a row is evaluated
+    std::uint64_t seed = 1;     ///< of the outlines; patches of different layers are independent
+
+    /// The sampler owns what it needs.
+    /// @throws invalid_input for parameters out of their range
+    INSONIFY_TAGGED mixed_sampler prepare() const;
+    INSONIFY_TAGGED std::vector<type_properties> legend() const {
+        std::vector<type_properties> all = base.legend();
+        for (const layer& l : layers) extend(all, l.bottom.legend());
+        return all;
+    }
+};
 
 namespace detail::inline INSONIFY_FLAGS {
 
@@ -23075,62 +23052,7 @@ void lay_over(const area_sampler& where, const border& edge, const Layer& layer,
     }
 }
 
-/// Calls `fill(line, heights, types)` for parts of a row no longer than a stretch.
-template <class Fill>
-void by_parts(const scanline& line, std::span<float> heights, std::span<type> types, Fill&& fill) {
-    for (std::size_t i = 0; i < heights.size(); i += chunk) {
-        const std::size_t count = (std::min)(chunk, heights.size() - i);
-        fill(line.from(i), heights.subspan(i, count), types.empty() ? types : types.subspan(i, count));
-    }
-}
-
 }  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace seabed
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/seabed/mixed.hpp -----------------------------------------------------------------
-// Layered seabeds: models composited over a base, each within its area, with a label at every point.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace seabed {
-
-inline namespace INSONIFY_FLAGS {
-
-class mixed_sampler;
-
-}  // namespace INSONIFY_FLAGS
-
-/// One bottom of a `mixed` seabed.
-struct layer {
-    any bottom = ripples{};
-    area where = patches{};
-    float border = 0.6f;  ///< metres, from 0.001: width of the border, about a ripple or two
-    float ragged = 0.5f;  ///< metres, 0 to 10^5: rms deviation of a shape's outline; patches ignore it
-};
-
-/// Layers on a base, from the lowest to the highest.
-///
-///     mixed{.base = flat{}, .layers = {{ripples{}, patches{.coverage = 0.4f}}, {rock{}, disc{{10, 5}, 8}}}}
-struct mixed {
-    any base = flat{};
-    std::vector<layer> layers;  ///< at most 500: each takes some 5 KB of stack while a row is evaluated
-    std::uint64_t seed = 1;     ///< of the outlines; patches of different layers are independent
-
-    /// The sampler owns what it needs.
-    /// @throws invalid_input for parameters out of their range
-    INSONIFY_TAGGED mixed_sampler prepare() const;
-    INSONIFY_TAGGED std::vector<type_properties> legend() const {
-        std::vector<type_properties> all = base.legend();
-        for (const layer& l : layers) extend(all, l.bottom.legend());
-        return all;
-    }
-};
 
 inline namespace INSONIFY_FLAGS {
 
@@ -23138,7 +23060,7 @@ inline namespace INSONIFY_FLAGS {
 class mixed_sampler {
   public:
     explicit mixed_sampler(const mixed& m) : base_(m.base.prepare()) {
-        detail::require(m.layers.size() <= 500, "mixed.layers.size()", m.layers.size(), "at most 500");
+        detail::require(m.layers.size() <= 64, "mixed.layers.size()", m.layers.size(), "at most 64");
         float relief = m.base.sink_depth();
         for (std::uint32_t i = 0; i < m.layers.size(); ++i) {
             const layer& l = m.layers[i];
@@ -23150,9 +23072,11 @@ class mixed_sampler {
     }
 
     void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
-        detail::by_parts(line, heights, types, [&](const scanline& l, std::span<float> h, std::span<type> t) {
-            fill(layers_.size(), l, h, t);
-        });
+        for (std::size_t i = 0; i < heights.size(); i += detail::chunk) {
+            const std::size_t count = (std::min)(detail::chunk, heights.size() - i);
+            fill(layers_.size(), line.from(i), heights.subspan(i, count),
+                 types.empty() ? types : types.subspan(i, count));
+        }
     }
 
     height_range range() const {
@@ -23162,7 +23086,7 @@ class mixed_sampler {
     }
 
   private:
-    /// The base with the first `count` layers.
+    /// The base with the first `count` layers, for at most a chunk of samples.
     void fill(std::size_t count, const scanline& line, std::span<float> heights, std::span<type> types) const {
         if (count == 0) return base_.row(line, heights, types);
         const prepared_layer& top = layers_[count - 1];
@@ -23393,7 +23317,7 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
         right = (std::max)(right, q.y);
     }
 
-    const double width = static_cast<double>(m.width), outside = -signed_distance(polygon{m.outline}, p);
+    const double width = static_cast<double>(m.width), outside = -signed_distance(m.outline, p);
     const glm::dvec2 at = turned(p);
     const double away = numeric::square_root(at.x * at.x + at.y * at.y);
     const double facing = away > 0 ? 0.75 - 0.25 * at.x / away : 0.75;
@@ -23445,7 +23369,7 @@ struct flatten {
 /// ground for one: where several overlap, each is 16 times as slow as the one before.
 struct smooth {
     glm::dvec2 centre{0.0, 0.0};
-    float radius = 1;      ///< metres, > 0: with its edge
+    float radius = 1;      ///< metres, > 0 and at most 2^17 lengths: with its edge
     float length = 0.25f;  ///< metres, > 0; rounded to eight bits, so that its multiples are exact
 };
 
@@ -23516,6 +23440,8 @@ inline ground_rect ground_of(const smooth& e) {
     require_position("smooth.centre", e.centre);
     require_positive_metres("smooth.radius", e.radius);
     require(e.length >= 1e-3f && e.length < 1e6f, "smooth.length", e.length, "metres, at least 0.001 and below 10^6");
+    // A row of the smoothed area takes two arrays of a float for each quarter of a length.
+    require(e.radius <= 0x1p17f * e.length, "smooth.radius", e.radius, "at most 2^17 times smooth.length");
     return rect_around({&e.centre, 1}, static_cast<double>(e.radius));
 }
 inline ground_rect ground_of(const ramp& e) {
@@ -23652,7 +23578,11 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
     const auto up = spline_weights(v.fraction);
     for (std::size_t j = 0; j < 16; ++j) {
         const double y = step * static_cast<double>(v.cell - 7 + static_cast<std::int64_t>(j));
-        ground(scanline{.y = y, .origin = step * static_cast<double>(first), .spacing = step}, std::span(nodes));
+        ground(scanline{.y = y,
+                        .origin = step * static_cast<double>(first),
+                        .spacing = step,
+                        .grid_spacing = line.grid_spacing},
+               std::span(nodes));
         for (std::size_t n = 0; n < nodes.size(); ++n) column[n] += up[j] * nodes[n];
     }
     for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -23808,8 +23738,6 @@ struct map_extent {
     double ceiling = -(std::numeric_limits<double>::max)();
 
     bool empty() const { return highest.x < lowest.x || highest.y < lowest.y; }
-    /// Largest distance from the frame's origin along v and z. Not along u, which a low light stretches.
-    double reach() const { return (std::max)({-lowest.y, highest.y, -floor, ceiling}); }
 
     void include(const glm::dvec3& uvz) {
         lowest = {(std::min)(lowest.x, uvz.x), (std::min)(lowest.y, uvz.y)};
@@ -23843,57 +23771,7 @@ struct map_placement {
     }
 };
 
-/// A grid of rays: the position of its texels in the light's frame, and the range of heights that it resolves.
-struct map_grid {
-    glm::dvec2 origin{};  ///< (u, v) of the first texel's corner, metres
-    glm::dvec2 texel{1};  ///< metres along u and v
-    double floor = 0, relief = 1;
-    int columns = 0, rows = 0;
-
-    map_grid() = default;
-
-    /// @param texel_length  metres along v; enlarged if more than `largest` texels a side would be needed
-    /// @param stretch       length of a texel along u over its length along v
-    /// @throws invalid_input for a texel that isn't positive or a `largest` outside [1, 32768]
-    map_grid(const map_extent& extent, double texel_length, int largest, double stretch = 1)
-        : origin(extent.lowest), floor(extent.floor) {
-        insonify::detail::require(texel_length > 0 && numeric::is_finite(texel_length), "texel", texel_length,
-                                  "a positive length");
-        insonify::detail::require(largest >= 1 && largest <= 32768, "largest", largest, "1 to 32768");
-        if (extent.empty()) return;
-        const glm::dvec2 size = extent.highest - extent.lowest;
-        const double longer_side = (std::max)(size.x / stretch, size.y);
-        texel = (std::max)(texel_length, longer_side / (largest - 0.5)) * glm::dvec2(stretch, 1);
-        const auto texels = [&](int axis) {
-            return (std::min)(largest, static_cast<int>(numeric::floor_to_int(size[axis] / texel[axis])) + 1);
-        };
-        // A little room below and above, so that rounding can't clip the highest caster away.
-        const double height = extent.ceiling - extent.floor;
-        const double room = 1e-3 * height + 1e-6;
-        floor -= room;
-        relief = height + 2 * room;
-        columns = texels(0);
-        rows = texels(1);
-    }
-
-    bool empty() const { return columns == 0; }
-
-    /// Vertex shader that maps a mesh onto the grid. Mesh to clip space is one affine map, composed in double and
-    /// narrowed last, when its numbers are small. Row 0 is where v is smallest, so triangles appear mirrored.
-    auto placing(const light_frame& frame, const affine& to_world) const {
-        const glm::dvec2 scale{2 / (texel.x * columns), 2 / (texel.y * rows)};
-        const auto to_clip = [&](const glm::dvec3& uvz) {
-            return glm::dvec3((uvz.x - origin.x) * scale.x - 1, 1 - (uvz.y - origin.y) * scale.y,
-                              (uvz.z - floor) / relief);
-        };
-        const glm::dvec3 zero = to_clip(frame(to_world.offset));
-        glm::mat3 axes;
-        for (int i = 0; i < 3; ++i) axes[i] = glm::vec3(to_clip(frame(to_world.offset + to_world.linear[i])) - zero);
-        return map_placement{axes, glm::vec3(zero)};
-    }
-};
-
-/// An extent that holds everything in a box, a little larger than it has to be.
+/// The bounds, in the light's frame, of a box's eight corners.
 inline map_extent extent_of(const bounding_box& box, const affine& to_world, const light_frame& frame) {
     map_extent extent;
     if (box.empty()) return extent;
@@ -23913,11 +23791,24 @@ class height_map {
     /// @param frame    of the light
     /// @param extent   (u, v) of the rays, and range of heights; casters outside it are clipped
     /// @param texel    metres between rays along u and v; grows if the map would have more than `largest` texels a side
-    /// @throws invalid_input as map_grid does
+    /// @throws invalid_input for a texel that isn't positive or a `largest` outside [1, 32768]
     height_map(const light_frame& frame, const map_extent& extent, double texel, int largest = 8192)
-        : frame_(frame),
-          grid_(extent, texel, largest),
-          heights_(grid_.columns, grid_.rows, empty_depth(keep_depth::larger)) {}
+        : frame_(frame), origin_(extent.lowest) {
+        insonify::detail::require(texel > 0 && numeric::is_finite(texel), "texel", texel, "a positive length");
+        insonify::detail::require(largest >= 1 && largest <= 32768, "largest", largest, "1 to 32768");
+        if (extent.empty()) return;
+        const glm::dvec2 size = extent.highest - extent.lowest;
+        texel_ = (std::max)(texel, (std::max)(size.x, size.y) / (largest - 0.5));
+        const auto texels = [&](double length) {
+            return (std::min)(largest, static_cast<int>(numeric::floor_to_int(length / texel_)) + 1);
+        };
+        // A little room below and above, so that rounding can't clip the highest caster away.
+        const double height = extent.ceiling - extent.floor;
+        const double room = 1e-3 * height + 1e-6;
+        floor_ = extent.floor - room;
+        relief_ = height + 2 * room;
+        heights_ = image<float>(texels(size.x), texels(size.y), empty_depth(keep_depth::larger));
+    }
 
     /// Draws a mesh into the map as a caster; several meshes may share a map.
     /// @param to_world  from the mesh's frame to the one in which the light is described
@@ -23925,7 +23816,7 @@ class height_map {
     template <executor_argument E = serial_executor>
     draw_stats cast(const mesh_view& m, const affine& to_world, E&& ex = {}) {
         if (heights_.empty()) return {};
-        return draw(m, grid_.placing(frame_, to_world), depth_target{heights_},
+        return draw(m, placing(to_world), depth_target{heights_},
                     draw_options<depth_precision::quick>{.keep = keep_depth::larger}, ex);
     }
 
@@ -23933,23 +23824,36 @@ class height_map {
     bool empty() const { return heights_.empty(); }
     int columns() const { return heights_.width(); }
     int rows() const { return heights_.height(); }
-    /// Metres between texels.
-    double texel() const { return grid_.texel.y; }
 
     /// A point of the frame on the map: continuous column and row (texel (i, j) has its centre at (i + 1/2, j + 1/2)),
     /// and its height as the map stores heights.
     glm::vec3 on_map(const glm::dvec3& uvz) const {
-        return glm::vec3((uvz.x - grid_.origin.x) / grid_.texel.x, (uvz.y - grid_.origin.y) / grid_.texel.y,
-                         (uvz.z - grid_.floor) / grid_.relief);
+        return glm::vec3((uvz.x - origin_.x) / texel_, (uvz.y - origin_.y) / texel_, (uvz.z - floor_) / relief_);
     }
     /// A slope dz / du in stored heights per texel.
-    float on_map(double slope) const { return static_cast<float>(slope * (grid_.texel.y / grid_.relief)); }
+    float on_map(double slope) const { return static_cast<float>(slope * (texel_ / relief_)); }
     /// Stored height of the first surface that a texel's ray meets; minus infinity if there is none.
     float operator()(int column, int row) const { return heights_(column, row); }
 
   private:
+    /// Vertex shader that maps a mesh onto the map. Mesh to clip space is one affine map, composed in double and
+    /// narrowed last, when its numbers are small. Row 0 is where v is smallest, so triangles appear mirrored.
+    map_placement placing(const affine& to_world) const {
+        const glm::dvec2 scale{2 / (texel_ * columns()), 2 / (texel_ * rows())};
+        const auto to_clip = [&](const glm::dvec3& uvz) {
+            return glm::dvec3((uvz.x - origin_.x) * scale.x - 1, 1 - (uvz.y - origin_.y) * scale.y,
+                              (uvz.z - floor_) / relief_);
+        };
+        const glm::dvec3 zero = to_clip(frame_(to_world.offset));
+        glm::mat3 axes;
+        for (int i = 0; i < 3; ++i) axes[i] = glm::vec3(to_clip(frame_(to_world.offset + to_world.linear[i])) - zero);
+        return {axes, glm::vec3(zero)};
+    }
+
     light_frame frame_;
-    map_grid grid_;
+    glm::dvec2 origin_{};            ///< (u, v) of the first texel's corner, metres
+    double texel_ = 1;               ///< metres along u and v
+    double floor_ = 0, relief_ = 1;  ///< lowest height that it resolves, and the range above it, metres
     image<float> heights_;
 };
 
@@ -24220,7 +24124,7 @@ class penumbra_occlusion {
   public:
     /// See casting_policy.
     /// @param radius   of the light over its distance
-    /// @param samples  points of the light, those below the horizon among them
+    /// @param samples  points on the disc; those below the horizon are counted but give no light
     /// @throws invalid_input as exact_occlusion does
     template <executor E>
     penumbra_occlusion(double radius, int samples, std::span<const caster> casters, const any_light& light,
@@ -24244,7 +24148,7 @@ class penumbra_occlusion {
             lights_[i].blocked.test(at, one);
             add(i, at, one, into);
         }
-        divide(into);
+        for (float& lit_sum : into.lit) lit_sum /= static_cast<float>(samples_);
     }
 
   private:
@@ -24288,9 +24192,6 @@ class penumbra_occlusion {
                 facet == glm::dvec3(0) || (numeric::dot(facet, to_here) > 0) == (numeric::dot(facet, to_middle) > 0);
             if (faces) into.lit[i] += one.lit[i];
         }
-    }
-    void divide(const results& into) const {
-        for (float& lit : into.lit) lit /= static_cast<float>(samples_);
     }
 
     detail::dynamic_array<caster> casters_;

@@ -1,9 +1,9 @@
 // Chooses the cheapest settings whose errors stay within a budget.
 //
 // The tolerance for a curved target's facets has a closed form in the positions of camera and light. Errors that depend
-// on the seabed are measured: a few small pictures are compared with marched rays, from coarse to fine, and the first
-// ones within the budget decide. That takes as long as a few large pictures, once for all pictures of a rig and a kind
-// of seabed.
+// on the seabed are measured: a few small pictures are compared with ones of the finest grid, from coarse to fine, and
+// the first ones within the budget decide. That takes as long as a few large pictures, once for all pictures of a rig
+// and a kind of seabed.
 #pragma once
 
 #include <insonify/accuracy/seabed_probe.hpp>
@@ -12,6 +12,8 @@
 #include <insonify/geometry/sphere.hpp>
 
 #include <concepts>
+#include <limits>
+#include <type_traits>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -24,7 +26,7 @@ using budget = errors;
 
 inline namespace INSONIFY_FLAGS {
 
-/// Whether each error is within its budget.
+/// Whether each error is within its budget; errors that are NaN are not.
 inline bool is_within(const errors& found, const budget& tolerated) {
     return found.shadow_edge <= tolerated.shadow_edge && found.silhouette <= tolerated.silhouette &&
            found.height <= tolerated.height && found.intensity <= tolerated.intensity;
@@ -40,8 +42,9 @@ struct settings {
     int subpixel_bits = render_options<Shadow>{}.subpixel_bits;
     double silhouette_error = 1;     ///< tolerance: pixels by which facets of a curved target may displace its outline
     double shadow_edge_error = 0.5;  ///< tolerance: pixels by which they may displace the edge of its shadow
-    errors expected{};               ///< as measured by settings_for
-    overhead rig{};                  ///< that the settings are for
+    /// As measured by settings_for, `silhouette` as tolerated; NaN in named settings.
+    errors expected{not_measured, not_measured, not_measured, not_measured};
+    overhead rig{};  ///< that the settings are for
 
     /// The settings as options of `render`; `settings.options<no_labels>()` without labels.
     template <class Labels = labels, backscatter_law Law = lambert>
@@ -93,6 +96,8 @@ struct settings {
     }
 
   private:
+    static constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
+
     /// A distance across the ray of light that grazes a ball's far side, over that by which it moves the shadow's edge.
     INSONIFY_TAGGED static double across_light(const overhead_geometry& view, const glm::dvec3& centre, double radius) {
         if (!view.has_near_light()) return view.light().to_light().z;
@@ -150,12 +155,17 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         return found;
     }
 
-    const detail::seabed_probe probed(bottom, rig, how, ex);
+    // Maps are compared with exact shadows, the other policies with themselves on the finest grid.
+    constexpr bool has_map = requires {
+        found.shadow.texels_per_pixel;
+    };
+    using truth = std::conditional_t<has_map, insonify::shadow::exact, Shadow>;
+    const detail::seabed_probe probed(bottom, rig, how, truth{}, ex);
     const double pixel = view.ground_sampling();
     const int longer = (std::max)(rig.size.x, rig.size.y);
     const auto errors_of = [&](double cells_per_pixel, double texels) {
         Shadow policy{};
-        if constexpr (requires { policy.texels_per_pixel; }) policy.texels_per_pixel = static_cast<float>(texels);
+        if constexpr (has_map) policy.texels_per_pixel = static_cast<float>(texels);
         errors all = probed.errors_of(cells_per_pixel, policy, ex);
         all.height /= pixel;
         // An error of height h displaces the shadow of a target by h cot(elevation).
@@ -188,7 +198,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
 
     double texels = is_enough ? (std::min)(0.5, many_texels) : many_texels;
     found.expected = errors_of(chosen, texels);
-    if constexpr (requires { found.shadow.texels_per_pixel; }) {
+    if constexpr (has_map) {
         while (texels < many_texels && !is_within(found.expected, usable)) {
             texels = (std::min)(2 * texels, many_texels);
             found.expected = errors_of(chosen, texels);

@@ -1,7 +1,6 @@
 // Measures the errors of pictures of a seabed on a few small ones.
 //
-// The ground truth of shadows is a ray per pixel, marched over the finest grid. It shares no code with any shadow
-// policy.
+// The ground truth is a picture of the finest grid, with exact shadows in place of maps.
 #pragma once
 
 #include <insonify/accuracy/metrics.hpp>
@@ -29,7 +28,7 @@ inline namespace INSONIFY_FLAGS {
 struct probe {
     int chips = 4;              ///< their number, distributed over the large picture
     int pixels = 128;           ///< along a side
-    double finest = 4;          ///< cells per pixel of the ground truth
+    double finest = 4;          ///< cells per pixel of the ground truth, and the most that settings take
     double usable_share = 0.7;  ///< fraction of the budget that they may use; the rest is for other parts of the seabed
 };
 
@@ -47,8 +46,11 @@ inline int max_subpixel_bits(const overhead& rig) {
 /// Small pictures of a seabed with their ground truth.
 class seabed_probe {
   public:
-    template <executor E>
-    seabed_probe(const seabed::any& bottom, const overhead& rig, const accuracy::probe& how, E& ex) : how_(how) {
+    /// @param shadow  of the ground truth
+    template <class Shadow, executor E>
+    seabed_probe(const seabed::any& bottom, const overhead& rig, const accuracy::probe& how, const Shadow& shadow,
+                 E& ex)
+        : how_(how) {
         scene_.seabed = bottom;
         const overhead_geometry view(rig);
         pixels_ = (std::min)(how.pixels, (std::min)(rig.size.x, rig.size.y));
@@ -71,9 +73,7 @@ class seabed_probe {
             const double half = view.half_extent(0).x * pixels_ / rig.size.x;
             chip.field_of_view = static_cast<float>(2 * numeric::atan2(half, static_cast<double>(rig.altitude)));
             chips_.push_back(chip);
-            picture truth = draw(chip, how.finest, shadow::exact{}, ex);
-            truth.dark = march(chip, ex);
-            truths_.push_back(std::move(truth));
+            truths_.push_back(draw(chip, how.finest, shadow, ex));
         }
     }
 
@@ -117,63 +117,6 @@ class seabed_probe {
         return {std::move(drawn.image), map_pixels(drawn.labels.shadow, [](std::uint16_t by) {
                     return static_cast<std::uint8_t>(by != labels::is_lit);
                 })};
-    }
-
-    /// Pixels in shadow, by a ray from each towards the light over the finest grid, in steps of a cell.
-    template <executor E>
-    image<std::uint8_t> march(const overhead& chip, E& ex) const {
-        const overhead_geometry view(chip);
-        const double half = view.half_extent(0).x;
-        const glm::dmat3 turn = glm::transpose(view.rig_from({}).linear);
-        const auto world = [&](const glm::dvec3& v) { return numeric::product(turn, v); };
-        const bool is_near = view.has_near_light();
-        const glm::dvec3 light =
-            is_near ? world(view.light_position()) + glm::dvec3(chip.position, 0) : world(view.light().to_light());
-
-        // The ground in view and as much towards the light.
-        const glm::dvec2 low = chip.position - 4 * half;
-        seabed::grid grid = seabed::grid_over(low, low + 8 * half, spacing_);
-        grid.band_limited = true;
-        const seabed::heightfield field = seabed::sample(scene_.seabed, grid, ex);
-        double top = -std::numeric_limits<double>::infinity();
-        for (const float h : field.heights.pixels())
-            if (numeric::is_finite(h)) top = (std::max)(top, static_cast<double>(h));
-
-        image<std::uint8_t> dark(chip.size.x, chip.size.y);
-        ex.bulk(static_cast<std::size_t>(chip.size.y), [&](std::size_t row) {
-            const int j = static_cast<int>(row);
-            for (int i = 0; i < chip.size.x; ++i) {
-                const glm::dvec3 in_rig((2.0 * i + 1 - chip.size.x) / chip.size.x * half,
-                                        (chip.size.y - 2.0 * j - 1) / chip.size.x * half, 0);
-                const glm::dvec2 datum(world(in_rig));
-                glm::dvec2 at = chip.position + datum;
-                // Perspective moves raised ground away from the middle; on narrow chips a few iterations converge.
-                for (int k = 0; k < 6; ++k) {
-                    const double height = field.facet_at(at.x, at.y).height;
-                    at = chip.position + datum * (1 - height / static_cast<double>(chip.altitude));
-                }
-                dark(i, j) = is_dark(field, at, light, is_near, top) ? 1 : 0;
-            }
-        });
-        return dark;
-    }
-
-    /// @param light  the position of a near light, or the direction to a distant one
-    static bool is_dark(const seabed::heightfield& field, const glm::dvec2& at, const glm::dvec3& light, bool is_near,
-                        double top) {
-        const auto facet = field.facet_at(at.x, at.y);
-        const glm::dvec3 toward = is_near ? light - glm::dvec3(at, facet.height) : light;
-        const double level = numeric::square_root(toward.x * toward.x + toward.y * toward.y);
-        if (level <= 1e-7 * numeric::abs(toward.z)) return false;  // the zenith
-        const glm::dvec2 travel(-toward.x / level, -toward.y / level);
-        const double tangent = toward.z / level;
-        if (field.spacing * tangent + facet.rise_x * travel.x + facet.rise_y * travel.y <= 0) return true;
-        for (double away = 0.01 * field.spacing;; away += field.spacing) {
-            const double ray = facet.height + away * tangent;
-            if (!(ray <= top) || (is_near && away > level)) return false;
-            const glm::dvec2 below = at - away * travel;
-            if (field.facet_at(below.x, below.y).height > ray + 1e-7) return true;
-        }
     }
 
     /// Of a grid against the finest one, over a lattice of points; in square metres.

@@ -82,16 +82,19 @@ inline double signed_distance(const disc& d, const glm::dvec2& p) {
 inline double signed_distance(const band& b, const glm::dvec2& p) {
     return 0.5 * static_cast<double>(b.width) - distance_to_path(p, b.path);
 }
-inline double signed_distance(const polygon& shape, const glm::dvec2& p) {
+inline double signed_distance(const std::vector<glm::dvec2>& corners, const glm::dvec2& p) {
     bool odd = false;
-    double square = square_distance(p, shape.corners.back(), shape.corners.front());
-    for (std::size_t i = 0; i < shape.corners.size(); ++i) {
-        const glm::dvec2 &a = shape.corners[i], &b = shape.corners[i + 1 < shape.corners.size() ? i + 1 : 0];
+    double square = square_distance(p, corners.back(), corners.front());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const glm::dvec2 &a = corners[i], &b = corners[i + 1 < corners.size() ? i + 1 : 0];
         square = (std::min)(square, square_distance(p, a, b));
         if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
     }
     const double distance = numeric::square_root(square);
     return odd ? distance : -distance;
+}
+inline double signed_distance(const polygon& shape, const glm::dvec2& p) {
+    return signed_distance(shape.corners, p);
 }
 /// Signed distances of a stencil's pixels from its border, in pixels. Each pixel takes the nearest of the points where
 /// the border crosses the lattice that its neighbours have found, in a sweep down and one up: Per-Erik Danielsson.

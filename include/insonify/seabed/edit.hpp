@@ -30,7 +30,7 @@ struct flatten {
 /// ground for one: where several overlap, each is 16 times as slow as the one before.
 struct smooth {
     glm::dvec2 centre{0.0, 0.0};
-    float radius = 1;      ///< metres, > 0: with its edge
+    float radius = 1;      ///< metres, > 0 and at most 2^17 lengths: with its edge
     float length = 0.25f;  ///< metres, > 0; rounded to eight bits, so that its multiples are exact
 };
 
@@ -101,6 +101,8 @@ inline ground_rect ground_of(const smooth& e) {
     require_position("smooth.centre", e.centre);
     require_positive_metres("smooth.radius", e.radius);
     require(e.length >= 1e-3f && e.length < 1e6f, "smooth.length", e.length, "metres, at least 0.001 and below 10^6");
+    // A row of the smoothed area takes two arrays of a float for each quarter of a length.
+    require(e.radius <= 0x1p17f * e.length, "smooth.radius", e.radius, "at most 2^17 times smooth.length");
     return rect_around({&e.centre, 1}, static_cast<double>(e.radius));
 }
 inline ground_rect ground_of(const ramp& e) {
@@ -237,7 +239,11 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
     const auto up = spline_weights(v.fraction);
     for (std::size_t j = 0; j < 16; ++j) {
         const double y = step * static_cast<double>(v.cell - 7 + static_cast<std::int64_t>(j));
-        ground(scanline{.y = y, .origin = step * static_cast<double>(first), .spacing = step}, std::span(nodes));
+        ground(scanline{.y = y,
+                        .origin = step * static_cast<double>(first),
+                        .spacing = step,
+                        .grid_spacing = line.grid_spacing},
+               std::span(nodes));
         for (std::size_t n = 0; n < nodes.size(); ++n) column[n] += up[j] * nodes[n];
     }
     for (std::size_t i = 0; i < heights.size(); ++i) {

@@ -72,7 +72,7 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
         right = (std::max)(right, q.y);
     }
 
-    const double width = static_cast<double>(m.width), outside = -signed_distance(polygon{m.outline}, p);
+    const double width = static_cast<double>(m.width), outside = -signed_distance(m.outline, p);
     const glm::dvec2 at = turned(p);
     const double away = numeric::square_root(at.x * at.x + at.y * at.y);
     const double facing = away > 0 ? 0.75 - 0.25 * at.x / away : 0.75;

@@ -33,7 +33,7 @@ class row_normals {
           z_(2 * static_cast<float>(field.spacing)),
           out_(out) {}
 
-    void compute(isa level = best_isa()) const { insonify::detail::dispatch(*this, level); }
+    void compute() const { insonify::detail::dispatch(*this, best_isa()); }
 
     template <int N>
     INSONIFY_INLINE void run() const {

@@ -55,16 +55,15 @@ class rock_sampler {
         double outcrop_cell = static_cast<double>(r.outcrop) / 2;
         for (std::uint32_t k = 0; k < 3; ++k, outcrop_cell /= 2)
             outcrops_.push_back(detail::gradient_noise(outcrop_cell, {r.seed, detail::stream::outcrops, k}));
-        // Blocks of half the size are 2^exponent times as many, in four times as many cells.
-        const float widest_spacing = r.block, narrowest_spacing = r.smallest, exponent = r.sizes;
-        const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(exponent) - 2));
-        float share = 1, largest_share = 1, spacing = widest_spacing;
+        // Blocks of half the size are 2^sizes times as many, in four times as many cells.
+        const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(r.sizes) - 2));
+        float share = 1, largest_share = 1, spacing = r.block;
         detail::dynamic_array<float> shares;
-        for (; shares.empty() || spacing >= narrowest_spacing; spacing /= 2, share *= ratio) {
+        for (; shares.empty() || spacing >= r.smallest; spacing /= 2, share *= ratio) {
             shares.push_back(share);
             largest_share = (std::max)(largest_share, share);
         }
-        spacing = widest_spacing;
+        spacing = r.block;
         float height = 0.8f * r.relief;
         for (std::uint32_t k = 0; k < shares.size(); ++k, spacing /= 2, height /= 2) {
             blocks_.push_back({static_cast<double>(spacing),
@@ -75,7 +74,12 @@ class rock_sampler {
         }
     }
 
-    void row(const scanline& line, std::span<float> heights) const;
+    void row(const scanline& line, std::span<float> heights) const {
+        detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
+            if (relief_ > 0) detail::add_relief(*this, part, values, best_isa());
+            surface_.add(part, values);
+        });
+    }
 
     height_range range() const {
         double blocks = 0;
@@ -140,17 +144,6 @@ class rock_sampler {
 INSONIFY_FUNCTION any_sampler rock::prepare() const {
     return detail::hold_sampler(detail::with_kind<rock_sampler>{rock_sampler(*this), kind});
 }
-
-inline namespace INSONIFY_FLAGS {
-
-inline void rock_sampler::row(const scanline& line, std::span<float> heights) const {
-    detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
-        if (relief_ > 0) detail::add_relief(*this, part, values, best_isa());
-        surface_.add(part, values);
-    });
-}
-
-}  // namespace INSONIFY_FLAGS
 
 #endif
 

@@ -128,8 +128,8 @@ class exact_occlusion {
         for (int i = 0; i < 3 && !bounds.empty(); ++i) reach = (std::max)({reach, -bounds.lower[i], bounds.upper[i]});
         return reach;
     }
-    /// Whether a caster is a grid that needs no list of triangles under parallel light. Parts of a wide light may lie
-    /// below the grid's plane although its centre does not.
+    /// Whether a caster is a grid lit from above its own plane: then horizon bounds replace its list of triangles.
+    /// Checked for each sample of a wide light, since some may lie below that plane.
     static bool has_horizon(const caster& c, const light_frame& frame) {
         return c.grid != nullptr && c.may_skip == skip::facing_its_own &&
                transform_direction(inverse(c.placement), frame.to_light()).z > 0;

@@ -28,8 +28,6 @@ struct map_extent {
     double ceiling = -(std::numeric_limits<double>::max)();
 
     bool empty() const { return highest.x < lowest.x || highest.y < lowest.y; }
-    /// Largest distance from the frame's origin along v and z. Not along u, which a low light stretches.
-    double reach() const { return (std::max)({-lowest.y, highest.y, -floor, ceiling}); }
 
     void include(const glm::dvec3& uvz) {
         lowest = {(std::min)(lowest.x, uvz.x), (std::min)(lowest.y, uvz.y)};
@@ -63,57 +61,7 @@ struct map_placement {
     }
 };
 
-/// A grid of rays: the position of its texels in the light's frame, and the range of heights that it resolves.
-struct map_grid {
-    glm::dvec2 origin{};  ///< (u, v) of the first texel's corner, metres
-    glm::dvec2 texel{1};  ///< metres along u and v
-    double floor = 0, relief = 1;
-    int columns = 0, rows = 0;
-
-    map_grid() = default;
-
-    /// @param texel_length  metres along v; enlarged if more than `largest` texels a side would be needed
-    /// @param stretch       length of a texel along u over its length along v
-    /// @throws invalid_input for a texel that isn't positive or a `largest` outside [1, 32768]
-    map_grid(const map_extent& extent, double texel_length, int largest, double stretch = 1)
-        : origin(extent.lowest), floor(extent.floor) {
-        insonify::detail::require(texel_length > 0 && numeric::is_finite(texel_length), "texel", texel_length,
-                                  "a positive length");
-        insonify::detail::require(largest >= 1 && largest <= 32768, "largest", largest, "1 to 32768");
-        if (extent.empty()) return;
-        const glm::dvec2 size = extent.highest - extent.lowest;
-        const double longer_side = (std::max)(size.x / stretch, size.y);
-        texel = (std::max)(texel_length, longer_side / (largest - 0.5)) * glm::dvec2(stretch, 1);
-        const auto texels = [&](int axis) {
-            return (std::min)(largest, static_cast<int>(numeric::floor_to_int(size[axis] / texel[axis])) + 1);
-        };
-        // A little room below and above, so that rounding can't clip the highest caster away.
-        const double height = extent.ceiling - extent.floor;
-        const double room = 1e-3 * height + 1e-6;
-        floor -= room;
-        relief = height + 2 * room;
-        columns = texels(0);
-        rows = texels(1);
-    }
-
-    bool empty() const { return columns == 0; }
-
-    /// Vertex shader that maps a mesh onto the grid. Mesh to clip space is one affine map, composed in double and
-    /// narrowed last, when its numbers are small. Row 0 is where v is smallest, so triangles appear mirrored.
-    auto placing(const light_frame& frame, const affine& to_world) const {
-        const glm::dvec2 scale{2 / (texel.x * columns), 2 / (texel.y * rows)};
-        const auto to_clip = [&](const glm::dvec3& uvz) {
-            return glm::dvec3((uvz.x - origin.x) * scale.x - 1, 1 - (uvz.y - origin.y) * scale.y,
-                              (uvz.z - floor) / relief);
-        };
-        const glm::dvec3 zero = to_clip(frame(to_world.offset));
-        glm::mat3 axes;
-        for (int i = 0; i < 3; ++i) axes[i] = glm::vec3(to_clip(frame(to_world.offset + to_world.linear[i])) - zero);
-        return map_placement{axes, glm::vec3(zero)};
-    }
-};
-
-/// An extent that holds everything in a box, a little larger than it has to be.
+/// The bounds, in the light's frame, of a box's eight corners.
 inline map_extent extent_of(const bounding_box& box, const affine& to_world, const light_frame& frame) {
     map_extent extent;
     if (box.empty()) return extent;
@@ -133,11 +81,24 @@ class height_map {
     /// @param frame    of the light
     /// @param extent   (u, v) of the rays, and range of heights; casters outside it are clipped
     /// @param texel    metres between rays along u and v; grows if the map would have more than `largest` texels a side
-    /// @throws invalid_input as map_grid does
+    /// @throws invalid_input for a texel that isn't positive or a `largest` outside [1, 32768]
     height_map(const light_frame& frame, const map_extent& extent, double texel, int largest = 8192)
-        : frame_(frame),
-          grid_(extent, texel, largest),
-          heights_(grid_.columns, grid_.rows, empty_depth(keep_depth::larger)) {}
+        : frame_(frame), origin_(extent.lowest) {
+        insonify::detail::require(texel > 0 && numeric::is_finite(texel), "texel", texel, "a positive length");
+        insonify::detail::require(largest >= 1 && largest <= 32768, "largest", largest, "1 to 32768");
+        if (extent.empty()) return;
+        const glm::dvec2 size = extent.highest - extent.lowest;
+        texel_ = (std::max)(texel, (std::max)(size.x, size.y) / (largest - 0.5));
+        const auto texels = [&](double length) {
+            return (std::min)(largest, static_cast<int>(numeric::floor_to_int(length / texel_)) + 1);
+        };
+        // A little room below and above, so that rounding can't clip the highest caster away.
+        const double height = extent.ceiling - extent.floor;
+        const double room = 1e-3 * height + 1e-6;
+        floor_ = extent.floor - room;
+        relief_ = height + 2 * room;
+        heights_ = image<float>(texels(size.x), texels(size.y), empty_depth(keep_depth::larger));
+    }
 
     /// Draws a mesh into the map as a caster; several meshes may share a map.
     /// @param to_world  from the mesh's frame to the one in which the light is described
@@ -145,7 +106,7 @@ class height_map {
     template <executor_argument E = serial_executor>
     draw_stats cast(const mesh_view& m, const affine& to_world, E&& ex = {}) {
         if (heights_.empty()) return {};
-        return draw(m, grid_.placing(frame_, to_world), depth_target{heights_},
+        return draw(m, placing(to_world), depth_target{heights_},
                     draw_options<depth_precision::quick>{.keep = keep_depth::larger}, ex);
     }
 
@@ -153,23 +114,36 @@ class height_map {
     bool empty() const { return heights_.empty(); }
     int columns() const { return heights_.width(); }
     int rows() const { return heights_.height(); }
-    /// Metres between texels.
-    double texel() const { return grid_.texel.y; }
 
     /// A point of the frame on the map: continuous column and row (texel (i, j) has its centre at (i + 1/2, j + 1/2)),
     /// and its height as the map stores heights.
     glm::vec3 on_map(const glm::dvec3& uvz) const {
-        return glm::vec3((uvz.x - grid_.origin.x) / grid_.texel.x, (uvz.y - grid_.origin.y) / grid_.texel.y,
-                         (uvz.z - grid_.floor) / grid_.relief);
+        return glm::vec3((uvz.x - origin_.x) / texel_, (uvz.y - origin_.y) / texel_, (uvz.z - floor_) / relief_);
     }
     /// A slope dz / du in stored heights per texel.
-    float on_map(double slope) const { return static_cast<float>(slope * (grid_.texel.y / grid_.relief)); }
+    float on_map(double slope) const { return static_cast<float>(slope * (texel_ / relief_)); }
     /// Stored height of the first surface that a texel's ray meets; minus infinity if there is none.
     float operator()(int column, int row) const { return heights_(column, row); }
 
   private:
+    /// Vertex shader that maps a mesh onto the map. Mesh to clip space is one affine map, composed in double and
+    /// narrowed last, when its numbers are small. Row 0 is where v is smallest, so triangles appear mirrored.
+    map_placement placing(const affine& to_world) const {
+        const glm::dvec2 scale{2 / (texel_ * columns()), 2 / (texel_ * rows())};
+        const auto to_clip = [&](const glm::dvec3& uvz) {
+            return glm::dvec3((uvz.x - origin_.x) * scale.x - 1, 1 - (uvz.y - origin_.y) * scale.y,
+                              (uvz.z - floor_) / relief_);
+        };
+        const glm::dvec3 zero = to_clip(frame_(to_world.offset));
+        glm::mat3 axes;
+        for (int i = 0; i < 3; ++i) axes[i] = glm::vec3(to_clip(frame_(to_world.offset + to_world.linear[i])) - zero);
+        return {axes, glm::vec3(zero)};
+    }
+
     light_frame frame_;
-    map_grid grid_;
+    glm::dvec2 origin_{};            ///< (u, v) of the first texel's corner, metres
+    double texel_ = 1;               ///< metres along u and v
+    double floor_ = 0, relief_ = 1;  ///< lowest height that it resolves, and the range above it, metres
     image<float> heights_;
 };
 

@@ -1,9 +1,9 @@
 // A parallel light over the sea floor, and the sheared frame in which its shadows are upright.
 //
-// In this frame a point moves along the light until it meets the datum: u = x . travel + z cot(elevation), v across.
-// All points of one ray share (u, v), and of two of them the higher one is nearer to the light. The map from world to
-// frame is affine, so triangles stay triangles; equal steps in (u, v) are equal steps on level ground at every
-// elevation; and level ground is level here too, so it needs no bias.
+// Points are projected onto the datum along the light's rays: u = x . travel + z cot(elevation), v across. All points
+// of one ray share (u, v), and of two of them the higher one is nearer to the light. The map from world to frame is
+// affine, so triangles stay triangles; equal steps in (u, v) are equal steps on level ground at every elevation; and
+// level ground is level here too, so it needs no bias.
 #pragma once
 
 #include <insonify/core/linear.hpp>

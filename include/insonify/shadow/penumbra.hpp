@@ -23,7 +23,7 @@ class penumbra_occlusion {
   public:
     /// See casting_policy.
     /// @param radius   of the light over its distance
-    /// @param samples  points of the light, those below the horizon among them
+    /// @param samples  points on the disc; those below the horizon are counted but give no light
     /// @throws invalid_input as exact_occlusion does
     template <executor E>
     penumbra_occlusion(double radius, int samples, std::span<const caster> casters, const any_light& light,
@@ -47,7 +47,7 @@ class penumbra_occlusion {
             lights_[i].blocked.test(at, one);
             add(i, at, one, into);
         }
-        divide(into);
+        for (float& lit_sum : into.lit) lit_sum /= static_cast<float>(samples_);
     }
 
   private:
@@ -91,9 +91,6 @@ class penumbra_occlusion {
                 facet == glm::dvec3(0) || (numeric::dot(facet, to_here) > 0) == (numeric::dot(facet, to_middle) > 0);
             if (faces) into.lit[i] += one.lit[i];
         }
-    }
-    void divide(const results& into) const {
-        for (float& lit : into.lit) lit /= static_cast<float>(samples_);
     }
 
     detail::dynamic_array<caster> casters_;

@@ -3,6 +3,7 @@
 #include <insonify/core/random.hpp>
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/shadow/map.hpp>
+#include <insonify/shadow/penumbra.hpp>
 
 #include <array>
 #include <cmath>
@@ -168,6 +169,37 @@ TEST_CASE("The outline of a modelled ball is within the tolerance of that of a f
     }
 }
 
+TEST_CASE("Under a light of 3 degrees a rock seabed keeps to a pixel of shadow edge without the finest grid") {
+    in::thread_pool pool(2);
+    const in::overhead rig{.altitude = 10, .field_of_view = 120_deg, .size = {2048, 2048}, .grazing = 3_deg};
+    const auto how = acc::settings_for({.intensity = 1}, sb::rock{}, rig, {.chips = 2}, pool);
+    CAPTURE(how.cell, how.expected.shadow_edge);
+    CHECK(how.expected.shadow_edge <= 1);
+    CHECK(how.cell >= 0.5 * in::overhead_geometry(rig).ground_sampling());
+}
+
+TEST_CASE("Budgets of height and intensity hold without shadows and with soft ones") {
+    in::thread_pool pool(2);
+    const in::overhead rig{.altitude = 1.5f, .field_of_view = 120_deg, .size = {256, 256}, .grazing = 6_deg};
+    in::scene scene;
+    scene.seabed = sb::ripples{};
+    const acc::budget tolerated{.shadow_edge = 2, .height = 1, .intensity = 0.2};
+    const acc::probe small{.chips = 2, .pixels = 96};
+    const auto check = [&](const auto& how) {
+        CAPTURE(how.cell, how.expected.shadow_edge, how.expected.height, how.expected.intensity);
+        CHECK(acc::is_within(how.expected, tolerated));
+        auto fine = how;
+        fine.cell = 0.25 * in::overhead_geometry(rig).ground_sampling();
+        const auto drawn = in::render(scene, rig, how.template options<in::no_labels>(), pool),
+                   truth = in::render(scene, rig, fine.template options<in::no_labels>(), pool);
+        CHECK(acc::compare_images(drawn.image, truth.image).rmse() <= tolerated.intensity);
+    };
+    const auto bare = acc::settings_for<in::shadow::none>(tolerated, scene.seabed, rig, small, pool);
+    CHECK(bare.expected.shadow_edge == 0);
+    check(bare);
+    check(acc::settings_for<in::shadow::penumbra>(tolerated, scene.seabed, rig, small, pool));
+}
+
 TEST_CASE("Settings are values: they can be read, changed and handed to render") {
     const trial t = random_trial(22, 64);
     auto how = acc::settings_for<in::shadow::map>({.shadow_edge = 2, .intensity = 1}, t.bottom, t.rig,
@@ -197,6 +229,10 @@ TEST_CASE("Settings are values: they can be read, changed and handed to render")
     CHECK(acc::settings_for({.silhouette = 0.5}, sb::none{}, t.rig).subpixel_bits ==
           in::render_options<>{}.subpixel_bits);
     CHECK(bare.shadow_edge_error == 0.25);
+
+    // Nothing is measured for named settings.
+    for (const auto& named : {acc::fast(t.rig), acc::balanced(t.rig), acc::exact(t.rig), acc::settings<>{}})
+        CHECK_FALSE(acc::is_within(named.expected, {1e9, 1e9, 1e9, 1e9}));
 }
 
 TEST_CASE("Settings of any picture size are ones that render takes") {
@@ -220,7 +256,7 @@ TEST_CASE("The ground truth of level ground is lit at the zenith and under near 
         CHECK(error({.size = {512, 512}, .grazing = 8_deg, .light_distance = distance}) == 0);
 }
 
-TEST_CASE("Near lights are measured against rays to the same light") {
+TEST_CASE("Near lights are measured against pictures under the same light") {
     const auto error = [](float distance) {
         const in::overhead rig{.altitude = 10, .size = {512, 512}, .grazing = 8_deg, .light_distance = distance};
         return in::accuracy::settings_for({.shadow_edge = 0.5}, in::seabed::ripples{}, rig).expected.shadow_edge;

@@ -79,6 +79,18 @@ TEST_CASE("Ripples on a grid coarser than they are vanish; without the limit the
     CHECK(sampled(ripples, 0.5 / 8).heights == sampled(ripples, 0.5 / 8, false).heights);
 }
 
+TEST_CASE("Smoothed ground fades on coarse grids as the ground around it does") {
+    const sb::ripples ripples{.wavelength = 0.8f, .surface = smooth};
+    for (const float length : {0.1f, 0.25f}) {
+        const sb::sculpted smoothed{.ground = ripples, .edits = {sb::smooth{{0, 0}, 1000, length}}};
+        for (const double spacing : {0.25, 0.35, 0.5}) {
+            CAPTURE(length, spacing);
+            CHECK(rms(sampled(smoothed, spacing)) <= rms(sampled(ripples, spacing)));
+        }
+        CHECK(rms(sampled(smoothed, 0.1)) > 0);
+    }
+}
+
 TEST_CASE("Roughness keeps the octaves that a grid carries, and their heights") {
     const sb::flat bottom{.surface = {.rms = 0.01f, .longest = 8, .shortest = 0.03125f, .exponent = 2.5f}};
     for (const double spacing : {0.0625, 0.25, 1.0}) {

@@ -245,6 +245,8 @@ TEST_CASE("Refusals of edits name the parameter") {
     CHECK_THROWS_WITH(prepare(sb::raise{.radius = 0}), ContainsSubstring("raise.radius is 0"));
     CHECK_THROWS_WITH(prepare(sb::flatten{.level = std::nanf("")}), ContainsSubstring("flatten.level"));
     CHECK_THROWS_WITH(prepare(sb::smooth{.length = 0}), ContainsSubstring("smooth.length is 0"));
+    CHECK_THROWS_WITH(prepare(sb::smooth{{0, 0}, 132, 0.001f}), ContainsSubstring("smooth.radius is 132"));
+    CHECK_NOTHROW(prepare(sb::smooth{{0, 0}, 131, 0.001f}));
     CHECK_THROWS_WITH(prepare(sb::ramp{.to = {0, 0}}), ContainsSubstring("ramp.to"));
     CHECK_THROWS_WITH(prepare(sb::stamp{}), ContainsSubstring("stamp.path.size() is 0"));
     CHECK_THROWS_WITH(prepare(sb::heap{.slope = 0}), ContainsSubstring("heap.slope is 0"));

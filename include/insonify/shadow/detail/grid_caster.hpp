@@ -19,7 +19,7 @@ class grid_caster {
           to_mesh_(inverse(c.placement)),
           travel_(transform_direction(to_mesh_, -frame.to_light())),
           bounds_(mesh_, c.box, *c.grid, travel_, level, ex),
-          macrocells_(bounds_.grid(), bounds_.heights(), level, ex) {}
+          macrocells_(bounds_.grid(), bounds_.u(), level, ex) {}
 
     /// Decides points [first, last), which lie on this caster and face the light, where the horizon's bounds suffice.
     /// @param into  results, from that of point `first` on
@@ -82,7 +82,7 @@ class grid_caster {
     affine to_mesh_;
     glm::dvec3 travel_;  ///< of the light, in the mesh's frame
     horizon_bounds bounds_;
-    macrocell_heights macrocells_;
+    macrocell_u macrocells_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS

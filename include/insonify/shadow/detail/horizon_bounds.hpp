@@ -35,12 +35,12 @@ struct horizon_bound {
     float lit_above;   ///< points of the column with a larger u are lit; infinity where u does not increase
 };
 
-/// Computes the bounds of adjacent strips, column by column: neighbours read mostly the same heights.
+/// Computes the bounds of adjacent strips, column by column: neighbours read mostly the same u.
 struct horizon_kernel {
     static constexpr int max_strips = 64;
 
     const lit_grid& grid;
-    const grid_heights& heights;
+    const grid_u& u;
     int first_row;      ///< of the first strip, in column 0
     int count, strips;  ///< strips of this call, and of the grid; both multiples of 16
     float margin;       ///< of u
@@ -62,8 +62,8 @@ struct horizon_kernel {
                 std::copy_n(now.lit_above, count, of_column + strips);
                 continue;
             }
-            const float* const here = heights_from(x, row, copies[0]);
-            const float* const ahead = heights_from(x + 1, row, copies[1]);
+            const float* const here = u_from(x, row, copies[0]);
+            const float* const ahead = u_from(x + 1, row, copies[1]);
             for (int k = 0; k < count + 2; k += N) find_facing<N>(is_facing + k, here + k, ahead + k, slope);
             for (int k = 0; k < count; k += N) advance<N>(now, k, here + k, ahead + k, is_facing + k, of_column + k);
         }
@@ -76,19 +76,18 @@ struct horizon_kernel {
         float dark_below[static_cast<unsigned>(max_strips)], lit_above[static_cast<unsigned>(max_strips)];
 
         bounds_so_far() {
-            std::fill_n(dark_below, max_strips, grid_heights::nothing);
-            std::fill_n(lit_above, max_strips, grid_heights::nothing);
+            std::fill_n(dark_below, max_strips, grid_u::nothing);
+            std::fill_n(lit_above, max_strips, grid_u::nothing);
         }
     };
 
-    /// The heights of a column from a row on; copied and padded where they reach past either end of the column.
-    const float* heights_from(int x, int row, float* copy) const {
+    /// The u of a column from a row on; copied and padded where it reaches past either end of the column.
+    const float* u_from(int x, int row, float* copy) const {
         const bool exists = x < grid.columns;
-        if (exists && row >= -grid_heights::around && row + room <= grid.rows + grid_heights::around)
-            return heights.column(x) + row;
-        std::fill_n(copy, room, grid_heights::nothing);
+        if (exists && row >= -grid_u::around && row + room <= grid.rows + grid_u::around) return u.column(x) + row;
+        std::fill_n(copy, room, grid_u::nothing);
         const int first = (std::max)(row, 0), last = (std::min)(row + room, grid.rows);
-        if (exists && first < last) std::copy_n(heights.column(x) + first, last - first, copy + (first - row));
+        if (exists && first < last) std::copy_n(u.column(x) + first, last - first, copy + (first - row));
         return copy;
     }
 
@@ -107,8 +106,8 @@ struct horizon_kernel {
             upper = (d - c) + slope * (d - b);
         }
         // Cells outside of the grid do not shade.
-        const ints is_cell = ints(a > grid_heights::nothing) & ints(b > grid_heights::nothing) &
-                             ints(c > grid_heights::nothing) & ints(d > grid_heights::nothing);
+        const ints is_cell = ints(a > grid_u::nothing) & ints(b > grid_u::nothing) & ints(c > grid_u::nothing) &
+                             ints(d > grid_u::nothing);
         const ints up = ints(lower > margin) & ints(upper > margin);
         store(into, ints(up | ints(is_cell == 0)));
     }
@@ -121,16 +120,16 @@ struct horizon_kernel {
         using namespace insonify::detail;
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
-        floats dark_below, lit_above, lowest, highest, next;
+        floats dark_below, lit_above, smallest, largest, next;
         ints is_facing;
         load(dark_below, now.dark_below + k), load(lit_above, now.lit_above + k);
-        load(lowest, here), load(is_facing, facing_of);
-        highest = lowest;
+        load(smallest, here), load(is_facing, facing_of);
+        largest = smallest;
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             floats other;
             load(other, here + i + 1);
-            if (i < 2) lowest = other < lowest ? other : lowest;
-            highest = other > highest ? other : highest;
+            if (i < 2) smallest = other < smallest ? other : smallest;
+            largest = other > largest ? other : largest;
         });
         unroll<2>([&](int i) INSONIFY_INLINE_LAMBDA {
             ints other;
@@ -138,9 +137,9 @@ struct horizon_kernel {
             is_facing = is_facing & other;
         });
         // Every ray of the strip meets the column between rows `row` and `row + 2`.
-        dark_below = lowest > dark_below ? lowest : dark_below;
+        dark_below = smallest > dark_below ? smallest : dark_below;
         // Where u does not increase, these cells may shade points in them and after, on the next column too.
-        next = highest;
+        next = largest;
         unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA {
             floats other;
             load(other, ahead + i);
@@ -164,11 +163,11 @@ class horizon_bounds {
     horizon_bounds(const mesh_view& m, const bounding_box& box, const regular_grid& lattice, const glm::dvec3& travel,
                    isa level, E& ex)
         : grid_(lattice, travel),
-          heights_(m, box, grid_, ex),
+          u_(m, box, grid_, ex),
           lattice_error_(2 * lattice.off + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
-        const double greatest = heights_.greatest, least = heights_.least;
-        const double relief = grid_.drop * (greatest - least);
-        const double size = grid_.columns + grid_.drop * (std::max)(numeric::abs(greatest), numeric::abs(least));
+        const double relief = grid_.drop * (u_.highest_z - u_.lowest_z);
+        const double size =
+            grid_.columns + grid_.drop * (std::max)(numeric::abs(u_.highest_z), numeric::abs(u_.lowest_z));
         margin_ = 0x1p-21 * size + 4 * lattice.off * (2 + relief);
         first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
         strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;
@@ -178,7 +177,7 @@ class horizon_bounds {
         bulk_ranges(
             ex, static_cast<std::size_t>(strips_), horizon_kernel::max_strips, [&](std::size_t from, std::size_t to) {
                 insonify::detail::dispatch(
-                    horizon_kernel{grid_, heights_, first_strip_ + static_cast<int>(from), static_cast<int>(to - from),
+                    horizon_kernel{grid_, u_, first_strip_ + static_cast<int>(from), static_cast<int>(to - from),
                                    strips_, static_cast<float>(margin_), bounds_.data() + from},
                     level);
             });
@@ -221,7 +220,7 @@ class horizon_bounds {
     }
 
     const lit_grid& grid() const { return grid_; }
-    const grid_heights& heights() const { return heights_; }
+    const grid_u& u() const { return u_; }
     /// Error bound of u, in columns.
     double margin() const { return margin_; }
     /// Bound of the distance of vertices from their lattice points, along the light or across, in steps, with a margin.
@@ -242,7 +241,7 @@ class horizon_bounds {
 
   private:
     lit_grid grid_;
-    grid_heights heights_;
+    grid_u u_;
     double lattice_error_, margin_ = 0;
     int first_strip_ = 0, strips_ = 0;
     insonify::detail::uninitialized_array<float> bounds_;

@@ -1,7 +1,7 @@
 // Decides whole triangles of a regular grid, lit or dark, by the bounds of their horizon.
 //
 // Within a cell, u (horizon_bounds.hpp) lies between its values at the corners. A triangle is dark if its largest u is
-// below the lower bounds of its strips, and lit if its least u is above the upper bounds. Pixels that show such a
+// below the lower bounds of its strips, and lit if its smallest u is above the upper bounds. Pixels that show such a
 // triangle need no test of their point. This holds for the upper side, which the camera sees if it is above the
 // triangle's plane.
 #pragma once
@@ -61,7 +61,7 @@ class horizon_triangles {
         eye_ = grid_.steps(glm::dvec2(eye));
         eye_u_ = eye_.x + grid_.drop * eye.z;
         // The sine is u's slope along the light, times the light's own sine, over the length of the facet's normal.
-        const double relief = horizon.heights().greatest - horizon.heights().least;
+        const double relief = horizon.u().highest_z - horizon.u().lowest_z;
         const auto square_of = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
         const double steps_a_metre = numeric::square_root((std::max)(square_of(grid_.x_of), square_of(grid_.y_of)));
         const double steepest = 1 + 2 * relief * steps_a_metre;
@@ -95,17 +95,17 @@ class horizon_triangles {
     void forget(const glm::dvec2& lower, const glm::dvec2& upper, int first_column, int last_column,
                 decision* into) const {
         // These columns and, in each, these rows hold all points of such rays within the relief.
-        const double least = horizon_.heights().least, greatest = horizon_.heights().greatest;
+        const double lowest_z = horizon_.u().lowest_z, highest_z = horizon_.u().highest_z;
         const double tolerance = 0x1p-8 + horizon_.margin();  // covers rounding
         const auto clamped = [](double at, int first, int last) {
             return static_cast<int>((std::min)((std::max)(at, static_cast<double>(first)), static_cast<double>(last)));
         };
-        const int left = clamped(lower.x - grid_.drop * greatest - tolerance - 1, first_column, last_column),
-                  right = clamped(upper.x - grid_.drop * least + tolerance + 1, first_column, last_column);
+        const int left = clamped(lower.x - grid_.drop * highest_z - tolerance - 1, first_column, last_column),
+                  right = clamped(upper.x - grid_.drop * lowest_z + tolerance + 1, first_column, last_column);
         for (int x = left; x < right; ++x) {
             const int bottom = clamped(lower.y - grid_.slope * (upper.x - x) - tolerance - 2, 0, grid_.rows - 1),
                       top = clamped(upper.y - grid_.slope * (lower.x - x - 1) + tolerance + 2, 0, grid_.rows - 1);
-            const float *const here = horizon_.heights().column(x), *const ahead = horizon_.heights().column(x + 1);
+            const float *const here = horizon_.u().column(x), *const ahead = horizon_.u().column(x + 1);
             for (int y = bottom; y < top; ++y) {
                 const auto low = static_cast<double>((std::min)({here[y], here[y + 1], ahead[y], ahead[y + 1]})),
                            high = static_cast<double>((std::max)({here[y], here[y + 1], ahead[y], ahead[y + 1]}));
@@ -159,21 +159,21 @@ class horizon_triangles {
             const horizon_bounds& horizon = whole.horizon_;
             const lit_grid& grid = whole.grid_;
             floats a, b, c, d;  // (0,0) (1,0) (0,1) (1,1)
-            load(a, horizon.heights().column(x) + y);
-            load(c, horizon.heights().column(x) + y + 1);
-            load(b, horizon.heights().column(x + 1) + y);
-            load(d, horizon.heights().column(x + 1) + y + 1);
+            load(a, horizon.u().column(x) + y);
+            load(c, horizon.u().column(x) + y + 1);
+            load(b, horizon.u().column(x + 1) + y);
+            load(d, horizon.u().column(x + 1) + y + 1);
             // The strips that the cells lie in.
             constexpr double tolerance = 0x1p-8;
             const double from = y - horizon.first_strip() - grid.slope * x;
             floats dark_below = floats{} + std::numeric_limits<float>::infinity(), lit_above = 0.0f - dark_below;
             const int last = static_cast<int>(from + 1 + tolerance);
             for (int strip = static_cast<int>(from - grid.slope - tolerance); strip <= last; ++strip) {
-                floats least, most;
-                load(least, horizon.dark_below(x) + strip);
-                load(most, horizon.lit_above(x) + strip);
-                dark_below = least < dark_below ? least : dark_below;
-                lit_above = most > lit_above ? most : lit_above;
+                floats smallest, largest;
+                load(smallest, horizon.dark_below(x) + strip);
+                load(largest, horizon.lit_above(x) + strip);
+                dark_below = smallest < dark_below ? smallest : dark_below;
+                lit_above = largest > lit_above ? largest : lit_above;
             }
             const auto margin = static_cast<float>(horizon.margin());
             dark_below = dark_below - margin;
@@ -214,14 +214,14 @@ class horizon_triangles {
         /// @param base              u of its plane at the cell's corner (0, 0)
         INSONIFY_INLINE void operator()(ints& answer, const floats& p, const floats& q, const floats& r,
                                         const floats& along_x, const floats& along_y, const floats& base) const {
-            floats highest = p > q ? p : q, lowest = p < q ? p : q;
-            highest = highest > r ? highest : r;
-            lowest = lowest < r ? lowest : r;
+            floats largest = p > q ? p : q, smallest = p < q ? p : q;
+            largest = largest > r ? largest : r;
+            smallest = smallest < r ? smallest : r;
             const floats rise = along_x + slope * along_y;
             const ints is_above = ints(base + along_x * dx + along_y * dy < eye);
             const ints is_facing = ints(rise > enough), is_averted = ints(rise < 0.0f - enough);
-            const ints is_dark = (is_above & is_averted) | ((is_above | is_facing) & ints(highest < dark_below));
-            const ints is_lit = is_above & is_facing & ints(lowest > lit_above);
+            const ints is_dark = (is_above & is_averted) | ((is_above | is_facing) & ints(largest < dark_below));
+            const ints is_lit = is_above & is_facing & ints(smallest > lit_above);
             answer = is_lit ? ints{} + static_cast<std::int32_t>(decision::lit)
                             : ints{} + static_cast<std::int32_t>(decision::undecided);
             answer = is_dark ? ints{} + static_cast<std::int32_t>(decision::dark) : answer;

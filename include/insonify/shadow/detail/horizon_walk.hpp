@@ -18,38 +18,38 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 using insonify::detail::dynamic_array;
 
 /// The largest u of macrocells: `side` x `side` cells each.
-class macrocell_heights {
+class macrocell_u {
   public:
     static constexpr int side = 4;  ///< cells
 
     template <executor E>
-    macrocell_heights(const lit_grid& grid, const grid_heights& heights, isa level, E& ex)
+    macrocell_u(const lit_grid& grid, const grid_u& u, isa level, E& ex)
         : columns_((grid.columns - 2) / side + 1), rows_((grid.rows - 2) / side + 1) {
-        highest_ = insonify::detail::uninitialized_array<float>(
+        largest_ = insonify::detail::uninitialized_array<float>(
             static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), insonify::detail::memory_of(ex));
         bulk_ranges(ex, static_cast<std::size_t>(columns_), 4, [&](std::size_t from, std::size_t to) {
             dynamic_array<float> row(static_cast<std::size_t>(grid.rows));
             for (auto column = static_cast<int>(from); column < static_cast<int>(to); ++column)
-                insonify::detail::dispatch(kernel{grid, heights, column * side, row.data(),
-                                                  highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_, rows_},
+                insonify::detail::dispatch(kernel{grid, u, column * side, row.data(),
+                                                  largest_.data() + static_cast<std::ptrdiff_t>(column) * rows_, rows_},
                                            level);
         });
     }
 
     /// The largest u of the vertices of the cells in a column of macrocells, between two rows of cells.
-    float highest(int column, int first_row, int last_row) const {
-        const float* const macrocells = highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_;
+    float largest_u(int column, int first_row, int last_row) const {
+        const float* const macrocells = largest_.data() + static_cast<std::ptrdiff_t>(column) * rows_;
         const int first = (std::max)(first_row / side, 0), last = (std::min)(last_row / side, rows_ - 1);
-        float highest = grid_heights::nothing;
-        for (int i = first; i <= last; ++i) highest = (std::max)(highest, macrocells[i]);
-        return highest;
+        float largest = grid_u::nothing;
+        for (int i = first; i <= last; ++i) largest = (std::max)(largest, macrocells[i]);
+        return largest;
     }
 
   private:
     /// One column of macrocells.
     struct kernel {
         const lit_grid& grid;
-        const grid_heights& heights;
+        const grid_u& u;
         int first;   ///< column of vertices
         float* row;  ///< room for the largest u of each row
         float* into;
@@ -59,37 +59,37 @@ class macrocell_heights {
         INSONIFY_INLINE void run() const {
             const int last = (std::min)(first + side, grid.columns - 1);
             int y = 0;
-            for (; y + N <= grid.rows; y += N) highest_of<N>(y, last);
-            for (; y < grid.rows; ++y) highest_of<1>(y, last);
+            for (; y + N <= grid.rows; y += N) largest_of<N>(y, last);
+            for (; y < grid.rows; ++y) largest_of<1>(y, last);
             for (int macrocell = 0; macrocell < macrocells; ++macrocell) {
                 const int low = macrocell * side, high = (std::min)(low + side, grid.rows - 1);
-                float highest = row[low];
-                for (int i = low + 1; i <= high; ++i) highest = (std::max)(highest, row[i]);
-                into[macrocell] = highest;
+                float largest = row[low];
+                for (int i = low + 1; i <= high; ++i) largest = (std::max)(largest, row[i]);
+                into[macrocell] = largest;
             }
         }
         template <int N>
-        INSONIFY_INLINE void highest_of(int y, int last) const {
+        INSONIFY_INLINE void largest_of(int y, int last) const {
             using namespace insonify::detail;
-            lanes<float, N> highest, other;
-            load(highest, heights.column(first) + y);
+            lanes<float, N> largest, other;
+            load(largest, u.column(first) + y);
             for (int x = first + 1; x <= last; ++x) {
-                load(other, heights.column(x) + y);
-                highest = other > highest ? other : highest;
+                load(other, u.column(x) + y);
+                largest = other > largest ? other : largest;
             }
-            store(row + y, highest);
+            store(row + y, largest);
         }
     };
 
     int columns_, rows_;
-    insonify::detail::uninitialized_array<float> highest_;
+    insonify::detail::uninitialized_array<float> largest_;
 };
 
 /// The walk along one ray.
 class horizon_walk {
   public:
     /// @param p  origin of the ray, in the mesh's frame
-    horizon_walk(const horizon_bounds& horizon, const macrocell_heights& macrocells, const glm::dvec3& p)
+    horizon_walk(const horizon_bounds& horizon, const macrocell_u& macrocells, const glm::dvec3& p)
         : horizon_(horizon),
           macrocells_(macrocells),
           grid_(horizon.grid()),
@@ -115,7 +115,7 @@ class horizon_walk {
 
     /// u on the edges that the ray crosses in one column of cells.
     struct crossing {
-        double lowest = infinity, highest = -infinity;
+        double smallest = infinity, largest = -infinity;
         double certain = -infinity;  ///< the largest u that certainly lies before the point
     };
 
@@ -132,15 +132,14 @@ class horizon_walk {
             return false;
         for (const double x : {x_ - lattice_error_, x_ + lattice_error_})
             for (int row = clamped_row(y - lattice_error_); row <= clamped_row(y + lattice_error_); ++row)
-                if (!(highest((std::min)(static_cast<int>(x), grid_.columns - 2), row, row) < u_ - horizon_.margin()))
+                if (!(largest_u((std::min)(static_cast<int>(x), grid_.columns - 2), row, row) < u_ - horizon_.margin()))
                     return false;
         return true;
     }
     /// The largest u of the corners of some cells of a column.
-    double highest(int column, int first_row, int last_row) const {
-        const float *const here = horizon_.heights().column(column), *const ahead =
-                                                                         horizon_.heights().column(column + 1);
-        float largest = grid_heights::nothing;
+    double largest_u(int column, int first_row, int last_row) const {
+        const float *const here = horizon_.u().column(column), *const ahead = horizon_.u().column(column + 1);
+        float largest = grid_u::nothing;
         for (int y = first_row; y <= last_row + 1; ++y) largest = (std::max)({largest, here[y], ahead[y]});
         return static_cast<double>(largest);
     }
@@ -149,36 +148,36 @@ class horizon_walk {
     template <class Decide>
     bool walk(bool is_above, const Decide& decide) const {
         const double u_lower_bound = u_ - horizon_.margin();
-        const auto greatest = static_cast<double>(horizon_.heights().greatest);
+        const double highest_z = horizon_.u().highest_z;
         if (!(x_ + lattice_error_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
         int column = static_cast<int>((std::min)(x_ + lattice_error_, static_cast<double>(grid_.columns - 2)));
         for (bool is_first = true; column >= 0; --column, is_first = false) {
             // Rows of cells that the ray crosses in this column.
             const double low = row_at(column), high = low + grid_.slope;
-            if (high < -lattice_error_ || column + 1 + grid_.drop * greatest < u_lower_bound) return false;
+            if (high < -lattice_error_ || column + 1 + grid_.drop * highest_z < u_lower_bound) return false;
             if (!is_first && is_above) {
                 const decision rest = decide_before(column);
                 if (rest != decision::undecided) return rest == decision::dark;
             }
-            if (!is_first && column % macrocell_heights::side == macrocell_heights::side - 1) {
-                const int before = column - (macrocell_heights::side - 1);
-                const float highest_before =
-                    macrocells_.highest(before / macrocell_heights::side, clamped_row(row_at(before) - lattice_error_),
-                                        clamped_row(high + lattice_error_));
-                if (static_cast<double>(highest_before) < u_lower_bound) {
+            if (!is_first && column % macrocell_u::side == macrocell_u::side - 1) {
+                const int before = column - (macrocell_u::side - 1);
+                const float largest_before =
+                    macrocells_.largest_u(before / macrocell_u::side, clamped_row(row_at(before) - lattice_error_),
+                                          clamped_row(high + lattice_error_));
+                if (static_cast<double>(largest_before) < u_lower_bound) {
                     column = before;
                     continue;
                 }
             }
             if (low > grid_.rows - 1 + lattice_error_) continue;
             const int first_row = clamped_row(low - lattice_error_), last_row = clamped_row(high + lattice_error_);
-            if (highest(column, first_row, last_row) < u_lower_bound) continue;
+            if (largest_u(column, first_row, last_row) < u_lower_bound) continue;
             const double limit = is_above ? x_ - column : 2;
             if (low >= lattice_error_ && high <= grid_.rows - 1 - lattice_error_) {
                 const crossing crossed = cross(column, limit);
-                if (crossed.highest < u_lower_bound) continue;
+                if (crossed.largest < u_lower_bound) continue;
                 if (is_above && crossed.certain > u_ + horizon_.margin()) return true;
-                if (!is_above && crossed.lowest > u_ + horizon_.margin()) continue;
+                if (!is_above && crossed.smallest > u_ + horizon_.margin()) continue;
             } else {
                 // Close to the border, whose vertices may lie off the lattice, the ray may leave the grid and enter
                 // it again below the surface.
@@ -207,9 +206,8 @@ class horizon_walk {
     crossing cross(int column, double limit) const {
         const double slope = grid_.slope, low = row_at(column);
         const int row = static_cast<int>(low);
-        const float *const here = horizon_.heights().column(column) + row, *const ahead =
-                                                                               horizon_.heights().column(column + 1) +
-                                                                               row;
+        const float *const here = horizon_.u().column(column) + row, *const ahead =
+                                                                         horizon_.u().column(column + 1) + row;
         const auto a = static_cast<double>(here[0]), b = static_cast<double>(ahead[0]),
                    c = static_cast<double>(here[1]), d = static_cast<double>(ahead[1]);
         crossing found;
@@ -217,8 +215,8 @@ class horizon_walk {
         const auto add = [&](double s, double first, double last, double t) {
             if (s > limit + lattice_error_) return;
             const double u = first + t * (last - first);
-            found.lowest = (std::min)(found.lowest, u);
-            found.highest = (std::max)(found.highest, u);
+            found.smallest = (std::min)(found.smallest, u);
+            found.largest = (std::max)(found.largest, u);
             if (s <= limit - lattice_error_) found.certain = (std::max)(found.certain, u);
         };
         const double start = low - row, end = start + slope, up = (1 - start) / slope;
@@ -241,7 +239,7 @@ class horizon_walk {
     }
 
     const horizon_bounds& horizon_;
-    const macrocell_heights& macrocells_;
+    const macrocell_u& macrocells_;
     const lit_grid& grid_;
     double x_, w_, u_;
     double lattice_error_;

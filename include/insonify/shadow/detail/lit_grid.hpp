@@ -1,5 +1,4 @@
-// A regular grid re-indexed so that parallel light crosses its columns in ascending order, and its heights along the
-// light's rays.
+// A regular grid re-indexed so that parallel light crosses its columns in ascending order, and the u of its vertices.
 //
 // In grid steps, all points of a ray have the same u = X + drop z, the X at which the ray meets z = 0.
 #pragma once
@@ -90,20 +89,21 @@ struct lit_grid {
 };
 
 /// u of a grid's vertices, column by column, padded with minus infinity.
-struct grid_heights {
+struct grid_u {
     static constexpr float nothing = -std::numeric_limits<float>::infinity();
     static constexpr int around = 4;  ///< rows of padding on either side
 
     int pitch = 0;
-    insonify::detail::uninitialized_array<float> u;
-    double least = 0, greatest = 0;  ///< bounds of z
+    insonify::detail::uninitialized_array<float> values;
+    double lowest_z = 0, highest_z = 0;  ///< bounds of the vertices
 
     template <executor E>
-    grid_heights(const mesh_view& m, const bounding_box& bounds, const lit_grid& grid, E& ex)
+    grid_u(const mesh_view& m, const bounding_box& bounds, const lit_grid& grid, E& ex)
         : pitch(grid.rows + 2 * around),
-          u(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(pitch), insonify::detail::memory_of(ex)),
-          least(bounds.lower.z),
-          greatest(bounds.upper.z) {
+          values(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(pitch),
+                 insonify::detail::memory_of(ex)),
+          lowest_z(bounds.lower.z),
+          highest_z(bounds.upper.z) {
         // In squares of vertices, so that both reads and writes are contiguous.
         constexpr int square = 64;
         const auto drop = static_cast<float>(grid.drop);
@@ -130,8 +130,8 @@ struct grid_heights {
             }
         });
     }
-    const float* column(int x) const { return u.data() + static_cast<std::ptrdiff_t>(x) * pitch + around; }
-    float* column(int x) { return u.data() + static_cast<std::ptrdiff_t>(x) * pitch + around; }
+    const float* column(int x) const { return values.data() + static_cast<std::ptrdiff_t>(x) * pitch + around; }
+    float* column(int x) { return values.data() + static_cast<std::ptrdiff_t>(x) * pitch + around; }
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS

@@ -20,7 +20,7 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 class points_by_tile {
   public:
     /// Sorts points by tile and sets all results in `into` to lit, which is final where no caster touches the tile.
-    /// @param planes  not empty; outlives this
+    /// @param planes  outlives this; without planes all points are lit
     template <executor E>
     points_by_tile(const tiled_planes& planes, std::span<const points> at, std::span<const results> into, E& ex)
         : planes_(planes) {

@@ -62,7 +62,7 @@ class receiver_cells {
               const glm::vec2& size) {
         const std::size_t count = from.size();
         int side = 1;
-        while (side < widest && static_cast<std::size_t>(side * side) * per_cell < count) side *= 2;
+        while (side < widest && static_cast<std::size_t>(side * side) * per_two_cells < count) side *= 2;
         columns_ = 2 * side;
         rows_ = side;
         lower_ = lower;
@@ -141,8 +141,8 @@ class receiver_cells {
     dynamic_array<std::int32_t> caster;     ///< that blocks it, or open, or closed
 
   private:
-    static constexpr int widest = 128;          // rows
-    static constexpr std::size_t per_cell = 2;  ///< largest mean number of receivers in two cells, up to widest rows
+    static constexpr int widest = 128;               // rows
+    static constexpr std::size_t per_two_cells = 2;  // largest mean number of receivers, up to widest rows
     static constexpr std::size_t padding = 16;
 
     int column(float at) const { return clamped((at - lower_.x) * scale_.x, columns_); }
