@@ -66,8 +66,7 @@ bool encode_png16(const png_byte* samples, int width, int height, std::string* b
     return true;
 }
 
-}  // namespace
-
+/// A 16-bit gray PNG; 1 becomes 65535, rounded to nearest.
 std::string png16_bytes(const insonify::image<float>& picture) {
     std::vector<png_byte> samples;
     samples.reserve(2 * picture.size());
@@ -81,6 +80,7 @@ std::string png16_bytes(const insonify::image<float>& picture) {
     return bytes;
 }
 
+/// A NumPy array: float32, little endian, top row first.
 std::string npy_bytes(const insonify::image<float>& picture) {
     std::string bytes = npy_header(picture.width(), picture.height());
     bytes.reserve(bytes.size() + 4 * picture.size());
@@ -90,6 +90,8 @@ std::string npy_bytes(const insonify::image<float>& picture) {
     }
     return bytes;
 }
+
+}  // namespace
 
 void add_formats(const std::vector<std::string>& formats, std::uint64_t index, const insonify::image<float>& values,
                  std::vector<file>& files, nlohmann::ordered_json& record) {

@@ -14,12 +14,6 @@ namespace generator {
 /// Values of --format: the first three add a file per image, the last one packs the whole set.
 inline constexpr const char* format_names[] = {"png16", "npy", "pfm", "webdataset"};
 
-/// A 16-bit gray PNG; 1 becomes 65535, rounded to nearest.
-std::string png16_bytes(const insonify::image<float>& picture);
-
-/// A NumPy array: float32, little endian, top row first.
-std::string npy_bytes(const insonify::image<float>& picture);
-
 /// Appends the files of `formats`, and their entries in the record.
 /// @param values  the image before quantization to 8 bits and colour
 void add_formats(const std::vector<std::string>& formats, std::uint64_t index, const insonify::image<float>& values,
