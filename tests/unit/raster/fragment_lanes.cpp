@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "../../catch.hpp"
 #include "pixel_space.hpp"
@@ -123,8 +126,9 @@ namespace {
 /// The largest difference between the varyings of a shader over lanes and those of a fragment shader, for one triangle
 /// in pixel coordinates, whose corners' clip coordinates are multiplied by `scale`. Infinite where the former are NaN.
 template <in::depth_precision Depth>
-double worst_of_lanes(const glm::vec3 (&corners)[3], float scale) {
-    const in::mesh m{{std::begin(corners), std::end(corners)}, {}, {{0, 1, 2}}};
+double worst_of_lanes(const glm::vec3 (&corners)[3], float scale, unsigned fewest_pixels = 100) {
+    // As often as there are lanes, so that small triangles are assembled together.
+    const in::mesh m{{std::begin(corners), std::end(corners)}, {}, std::vector<glm::uvec3>(16, {0, 1, 2})};
     const auto scaled = [&](const in::vertex& v) {
         return in::placed_vertex<varyings>{
             testing_raster::pixel_space{256, 256}(v)*scale,
@@ -149,7 +153,7 @@ double worst_of_lanes(const glm::vec3 (&corners)[3], float scale) {
             }
         }
     };
-    CHECK(in::draw(m, scaled, compare, in::framebuffer<void>{depth}, options).pixels > 100);
+    CHECK(in::draw(m, scaled, compare, in::framebuffer<void>{depth}, options).pixels >= fewest_pixels);
     return worst;
 }
 }  // namespace
@@ -172,6 +176,21 @@ TEST_CASE("Varyings over lanes stay precise on slivers of any length") {
             CHECK(worst_of_lanes<in::depth_precision::exact>(sliver, 1) < 5e-4);
             CHECK(worst_of_lanes<in::depth_precision::quick>(sliver, 1) < 5e-4);
         }
+    const auto at = [](int x, int y) {  // sub-pixels from the centre of pixel (128, 128)
+        return glm::vec3(128.5f + static_cast<float>(x) / 256, 128.5f + static_cast<float>(y) / 256, 0.5f);
+    };
+    // Needles 4 to 96 pixels long, with the least area that has a pixel's centre inside: four squared sub-pixels, twice
+    // the area, of which the corners get one, two and one. Neighbouring Fibonacci numbers make the determinants.
+    for (int a = 610, b = 377; a < 20000; std::tie(a, b) = std::pair(a + b, a)) {
+        const int c = a - b, d = b - c, e = c - d;
+        const glm::vec3 needle[] = {at(a, b), at(-c, -d), at(-d, -e)};
+        CAPTURE(a);
+        CHECK(worst_of_lanes<in::depth_precision::exact>(needle, 1, 1) < 1e-6);
+        CHECK(worst_of_lanes<in::depth_precision::quick>(needle, 1, 1) < 1e-6);
+    }
+    // A steeper one.
+    const glm::vec3 needle[] = {at(14971, -11267), at(-2801, 2108), at(-9369, 7051)};
+    CHECK(worst_of_lanes<in::depth_precision::exact>(needle, 1, 1) < 1e-6);
 }
 
 TEST_CASE("A shader over lanes gives the same bytes for any instruction set, tile size and thread count") {

@@ -230,7 +230,7 @@ struct assembly_kernel {
     }
 
     /// @returns false if one of the triangles isn't small, unless all lie outside of the picture: in a close-up, most
-    ///          triangles of a surface do, and are large
+    ///          triangles of a surface do, and are large; and if one is a sliver
     template <int N>
     INSONIFY_INLINE bool assemble_small(std::size_t triangle, const drawn_area<N>& picture) const {
         using ints = lanes<std::int32_t, N>;
@@ -247,8 +247,9 @@ struct assembly_kernel {
         const unsigned outside = movemask<N>(disjoint);
         if (outside == all) return true;
         if (!t.are_small()) return false;
-        ints area, empty, culled = ints{};
+        ints area, sliver, empty, culled = ints{};
         t.area(area);
+        t.is_sliver(area, sliver);
         if (screen.cull_ == cull_mode::back) culled = ints(area > 0);
         if (screen.cull_ == cull_mode::front) culled = ints(area < 0);
         pixels.intersect(picture.pixels);
@@ -260,6 +261,7 @@ struct assembly_kernel {
                    last_tile = ints(((pixels.x1 - 1) >> size) | ((pixels.y1 - 1) >> size << 16));
         const unsigned degenerate = movemask<N>(ints(area == 0)) & ~outside, turned = movemask<N>(culled) & ~outside,
                        drawn = all & ~(movemask<N>(empty) | degenerate | turned);
+        if ((movemask<N>(sliver) & drawn) != 0) return false;
         out.stats.degenerate += static_cast<unsigned>(std::popcount(degenerate));
         out.stats.culled += static_cast<unsigned>(std::popcount(turned));
         out.stats.drawn += static_cast<unsigned>(std::popcount(drawn));
