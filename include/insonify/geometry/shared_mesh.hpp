@@ -63,9 +63,9 @@ INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m) {
     validate(facts.shape);
     facts.box = bounds(facts.shape);
     if (!facts.shape.normals.empty()) wind_by_normals(facts.shape);  // first: triangles of a grid are counter-clockwise
-    facts.grid = regular_grid_of(facts.shape, serial_executor{}, mesh_facts::grid_error);
+    facts.grid = regular_grid_of(facts.shape, mesh_facts::grid_error);
     if (!facts.grid && order_by_lattice(facts.shape))
-        facts.grid = regular_grid_of(facts.shape, serial_executor{}, mesh_facts::grid_error);
+        facts.grid = regular_grid_of(facts.shape, mesh_facts::grid_error);
     else if (!facts.grid && is_incoherent(facts.shape))
         order_along_curve(facts.shape, facts.box);
     if (facts.shape.normals.empty()) facts.shape.normals = smooth_normals(facts.shape);
