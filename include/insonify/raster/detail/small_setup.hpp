@@ -96,7 +96,7 @@ struct triangle_lanes {
         into = ints((width * width + height * height) >> 12 > twice);
     }
 
-    /// The pixels whose centres lie in the bounding boxes, see pixel_grid::first_center.
+    /// The pixels whose centres lie in the bounding boxes, see pixel_grid::first_centre.
     INSONIFY_INLINE void centres(const drawn_area<N>& area, rect_lanes<N>& into) const {
         into.x0 = (west + area.before) >> area.bits;
         into.y0 = (north + area.before) >> area.bits;
