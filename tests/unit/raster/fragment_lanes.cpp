@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -204,6 +205,51 @@ TEST_CASE("A shader over lanes gives the same bytes for any instruction set, til
     const pictures quick = drawn<in::depth_precision::quick>(m, in::isa::scalar, 64, in::serial_executor{});
     CHECK(same(quick, drawn<in::depth_precision::quick>(m, in::best_isa(), 16, pool)));
     CHECK(!(quick.depth == exact.depth));
+}
+
+namespace {
+// As at the top of fragment_lanes.hpp.
+struct surface {
+    float height, brightness;
+};
+struct shade_surface {
+    in::image<float>& picture;
+    template <int N>
+    INSONIFY_INLINE void operator()(const in::fragment_lanes<N, surface>& f) const {
+        typename in::fragment_lanes<N, surface>::floats height, brightness;
+        f.interpolate(height, 0);
+        f.interpolate(brightness, 1);
+        f.store(picture, height < 1.0f ? brightness : 0.5f * brightness);
+        float heights[static_cast<unsigned>(N)];
+        std::memcpy(heights, &height, sizeof height);
+        for (int k = 0; k < N; ++k)
+            if (heights[k] >= 3) ++picture(149, 109);  // never
+    }
+};
+}  // namespace
+
+TEST_CASE("The shader at the top of fragment_lanes.hpp shades like one for single pixels") {
+    const auto place = [](const in::vertex& v) {
+        const glm::vec3& p = v.position;
+        return in::placed_vertex<surface>{seen_from_above(v).clip, {p.z, 0.5f + 0.1f * p.x}};
+    };
+    const in::draw_options<> options{.keep = in::keep_depth::larger, .load = in::depth_load::clear};
+    in::image<float> depth(150, 110), picture(150, 110), expected(150, 110);
+    in::draw(rubble(), place, shade_surface{picture}, in::framebuffer<void>{depth}, options);
+    in::draw(
+        rubble(), place,
+        [&](const in::fragment<surface>& f) {
+            const auto& [height, brightness] = f.varyings;
+            expected(f.x, f.y) = height < 1.0f ? brightness : 0.5f * brightness;
+        },
+        in::framebuffer<void>{depth}, options);
+    int different = 0, shaded = 0;
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        shaded += expected.pixels()[i] > 0;
+        different += std::abs(picture.pixels()[i] - expected.pixels()[i]) > 1e-4f;
+    }
+    CHECK(shaded > 8000);
+    CHECK(different < 3);  // at heights of 1, to float precision
 }
 
 TEST_CASE("Varyings over lanes may be empty") {
