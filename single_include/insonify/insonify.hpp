@@ -6441,23 +6441,14 @@ inline bounding_box transformed(const bounding_box& box, const affine& map) {
 }
 
 /// The smallest box around all finite positions, including those that no triangle uses.
-template <executor_argument E = serial_executor>
-bounding_box bounds(const mesh_view& m, E&& ex = {}) {
-    constexpr std::size_t grain = 65536;
-    detail::dynamic_array<bounding_box> parts((m.positions.size() + grain - 1) / grain);
-    bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
-        constexpr float infinity = std::numeric_limits<float>::infinity();
-        glm::vec3 lower(infinity), upper(-infinity);
-        bool all_finite = true;
-        dispatch(detail::bounds_kernel{&m.positions[first], last - first, lower, upper, all_finite}, best_isa());
-        bounding_box& part = parts[first / grain];
-        if (all_finite)
-            part = {glm::dvec3(lower), glm::dvec3(upper)};
-        else
-            for (std::size_t i = first; i < last; ++i) part = include(part, glm::dvec3(m.positions[i]));
-    });
+inline bounding_box bounds(const mesh_view& m) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    glm::vec3 lower(infinity), upper(-infinity);
+    bool all_finite = true;
+    dispatch(detail::bounds_kernel{m.positions.data(), m.positions.size(), lower, upper, all_finite}, best_isa());
+    if (all_finite) return {glm::dvec3(lower), glm::dvec3(upper)};
     bounding_box box;
-    for (const bounding_box& part : parts) box = merge(box, part);
+    for (const glm::vec3& p : m.positions) box = include(box, glm::dvec3(p));
     return box;
 }
 
@@ -6758,24 +6749,23 @@ inline std::vector<glm::vec3> smooth_normals(const mesh& m) {
     return normals;
 }
 
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
+
 /// Flips each triangle whose three corner normals all point to its back: normals define the outside.
 /// @param m  its indices have positions, and positions have normals
-/// @returns the number of flipped triangles
-inline std::size_t wind_by_normals(mesh& m) {
-    std::size_t turned = 0;
+inline void wind_by_normals(mesh& m) {
     for (glm::uvec3& t : m.triangles) {
         const glm::dvec3 a(m.positions[t.x]), b(m.positions[t.y]), c(m.positions[t.z]);
         const glm::dvec3 facet = numeric::cross(b - a, c - a);
         bool is_back = true;
         for (int i = 0; i < 3; ++i) is_back = is_back && numeric::dot(facet, glm::dvec3(m.normals[t[i]])) < 0;
-        if (!is_back) continue;
-        std::swap(t.y, t.z);
-        ++turned;
+        if (is_back) std::swap(t.y, t.z);
     }
-    return turned;
 }
 
-}  // namespace INSONIFY_FLAGS
+}  // namespace detail::inline INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -6789,7 +6779,6 @@ INSONIFY_ARITHMETIC_END
 #if INSONIFY_BODIES
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #endif
 
@@ -6819,7 +6808,7 @@ struct cell_row_kernel {
     const glm::uvec3* triangles;
     std::size_t cells;
     const std::uint32_t (&first)[static_cast<unsigned>(indices)];  ///< vertices of the first cell's triangles
-    std::atomic<bool>& differs;                                    ///< set if a triangle is another
+    bool& differs;                                                 ///< set if a triangle is another
 
     template <int N>
     INSONIFY_INLINE void run() const {
@@ -6891,15 +6880,18 @@ struct cell_cut {
 }  // namespace detail::inline INSONIFY_FLAGS
 #endif
 
-namespace detail::inline INSONIFY_ONCE {
+inline namespace INSONIFY_ONCE {
 
-INSONIFY_FUNCTION std::optional<regular_grid> find_regular_grid(const mesh_view& m, executor_ref ex, double off);
+/// The regular grid of a mesh's vertices; none if they are not on one, or a height is not finite.
+/// @param off  distance from the lattice up to which vertices are accepted, in steps; `regular_grid::off` of the result
+///             bounds the actual distance
+INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m, double off = 1.0 / 256);
 
 #if INSONIFY_BODIES
-INSONIFY_FUNCTION std::optional<regular_grid> find_regular_grid(const mesh_view& m, executor_ref ex, double off) {
+INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m, double off) {
     if (m.triangles.size() < 2) return std::nullopt;
     const glm::uvec3 cell[2] = {m.triangles[0], m.triangles[1]};
-    const auto cut = cell_cut::of(cell);
+    const auto cut = detail::cell_cut::of(cell);
     if (!cut) return std::nullopt;
     const std::size_t columns = cut->columns, rows = m.positions.size() / columns;
     if (rows < 2 || columns > 1 << 20 || rows > 1 << 20 || rows * columns != m.positions.size() ||
@@ -6916,46 +6908,37 @@ INSONIFY_FUNCTION std::optional<regular_grid> find_regular_grid(const mesh_view&
     const double step = numeric::abs(area) / numeric::square_root((std::max)(square(right), square(up)));
     const double farthest_accepted = square({step * off, 0});
 
-    std::atomic<bool> differs = false;
-    constexpr std::size_t grain = 16;
-    dynamic_array<double> farthest((rows + grain - 1) / grain, 0);  // squared, of the vertices of some rows
-    bulk_ranges(ex, rows, grain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t j = first; j < last && !differs; ++j) {
-            const glm::dvec2 start = origin + static_cast<double>(j) * up;
-            for (std::size_t i = 0; i < columns; ++i) {
-                const std::size_t vertex = j * columns + i;
-                const double squared = square(place(vertex) - (start + static_cast<double>(i) * right));
-                farthest[j / grain] = (std::max)(farthest[j / grain], squared);
-                // Written so that NaN doesn't pass.
-                if (!(squared <= farthest_accepted && numeric::is_finite(m.positions[vertex].z))) differs = true;
-            }
-            if (j + 1 == rows) continue;
-            const auto corner = static_cast<std::uint32_t>(j * columns);
-            std::uint32_t vertices[cell_row_kernel::indices];
-            for (int i = 0; i < cell_row_kernel::indices; ++i) vertices[i] = cell[i / 3][i % 3] + corner;
-            dispatch(cell_row_kernel{&m.triangles[j * 2 * (columns - 1)], columns - 1, vertices, differs}, best_isa());
+    double farthest = 0;  // squared
+    for (std::size_t j = 0; j < rows; ++j) {
+        const glm::dvec2 start = origin + static_cast<double>(j) * up;
+        for (std::size_t i = 0; i < columns; ++i) {
+            const std::size_t vertex = j * columns + i;
+            const double squared = square(place(vertex) - (start + static_cast<double>(i) * right));
+            farthest = (std::max)(farthest, squared);
+            // Written so that NaN doesn't pass.
+            if (!(squared <= farthest_accepted && numeric::is_finite(m.positions[vertex].z))) return std::nullopt;
         }
-    });
-    if (differs) return std::nullopt;
-    const double farthest_off = numeric::square_root(*std::max_element(farthest.begin(), farthest.end())) / step;
-    return regular_grid{
-        static_cast<int>(columns), static_cast<int>(rows), origin, right, up, cut->is_rising, farthest_off};
+        if (j + 1 == rows) break;
+        constexpr int indices = detail::cell_row_kernel::indices;
+        const auto corner = static_cast<std::uint32_t>(j * columns);
+        std::uint32_t vertices[static_cast<unsigned>(indices)];
+        for (int i = 0; i < indices; ++i) vertices[i] = cell[i / 3][i % 3] + corner;
+        bool differs = false;
+        dispatch(detail::cell_row_kernel{&m.triangles[j * 2 * (columns - 1)], columns - 1, vertices, differs},
+                 best_isa());
+        if (differs) return std::nullopt;
+    }
+    return regular_grid{static_cast<int>(columns),
+                        static_cast<int>(rows),
+                        origin,
+                        right,
+                        up,
+                        cut->is_rising,
+                        numeric::square_root(farthest) / step};
 }
 #endif
 
-}  // namespace detail::inline INSONIFY_ONCE
-
-inline namespace INSONIFY_FLAGS {
-
-/// The regular grid of a mesh's vertices; none if they are not on one, or a height is not finite.
-/// @param off  distance from the lattice up to which vertices are accepted, in steps; `regular_grid::off` of the result
-///             bounds the actual distance
-template <executor_argument E = serial_executor>
-std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, double off = 1.0 / 256) {
-    return detail::find_regular_grid(m, ex, off);
-}
-
-}  // namespace INSONIFY_FLAGS
+}  // namespace INSONIFY_ONCE
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -7252,15 +7235,13 @@ INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m) {
     facts.shape = std::move(m);
     validate(facts.shape);
     facts.box = bounds(facts.shape);
-    facts.grid = regular_grid_of(facts.shape, serial_executor{}, mesh_facts::grid_error);
+    if (!facts.shape.normals.empty()) wind_by_normals(facts.shape);  // first: triangles of a grid are counter-clockwise
+    facts.grid = regular_grid_of(facts.shape, mesh_facts::grid_error);
     if (!facts.grid && order_by_lattice(facts.shape))
-        facts.grid = regular_grid_of(facts.shape, serial_executor{}, mesh_facts::grid_error);
+        facts.grid = regular_grid_of(facts.shape, mesh_facts::grid_error);
     else if (!facts.grid && is_incoherent(facts.shape))
         order_along_curve(facts.shape, facts.box);
-    if (facts.shape.normals.empty())
-        facts.shape.normals = smooth_normals(facts.shape);
-    else
-        wind_by_normals(facts.shape);
+    if (facts.shape.normals.empty()) facts.shape.normals = smooth_normals(facts.shape);
     facts.kind = kind_of(facts.shape);
     // Where else renderers would have to find out what lies below a position.
     if (facts.kind == surface_kind::heightfield && !facts.grid && !fills_box(facts.shape, facts.box))
@@ -7320,7 +7301,8 @@ class shared_mesh {
     const bounding_box& box() const { return facts_->box; }
     /// Heightfields whose outline is neither their grid's nor that of the box count as open.
     surface_kind kind() const { return facts_->kind; }
-    /// The grid of a heightfield whose vertices lie on one, within `grid_error` steps; null otherwise.
+    /// The grid of a heightfield whose vertices lie on one, within `grid_error` steps; null otherwise. Turn a mesh by
+    /// its pose: turned vertices are rounded, which leaves the outline concave, and then there is no grid.
     const regular_grid* grid() const { return facts_->grid ? &*facts_->grid : nullptr; }
     static constexpr double grid_error = detail::mesh_facts::grid_error;
 
@@ -7959,7 +7941,9 @@ constexpr float empty_depth(keep_depth keep) {
 /// How depth between the vertices is computed.
 enum class depth_precision {
     exact,  ///< correctly rounded: the float nearest to the plane through the three snapped vertices
-    quick,  ///< in float: within a few units in the last place, clamped to the vertices' depths; a third less time
+    /// In float, clamped to the vertices' depths; a third less time. Off by at most 2^-22 of the largest depth, plus
+    /// 2^-19 of the triangle's range of depths where it fills half of its bounding box, and 2^-7 of it on the thinnest.
+    quick,
 };
 
 /// Options of a draw. `tile` and `level` never change the result, but for the sign of zeros in the depth buffer.
@@ -12218,7 +12202,7 @@ struct pixel_grid {
     std::int64_t centre(int pixel) const { return pixel * unit() + half(); }
     /// The first pixel of an axis whose centre is at a coordinate or beyond, clamped to [0, extent]. By the fill rule
     /// this is also the exclusive end of the pixels below an upper bound.
-    int first_center(std::int64_t coordinate, int extent) const {
+    int first_centre(std::int64_t coordinate, int extent) const {
         return static_cast<int>(std::clamp<std::int64_t>((coordinate + half() - 1) >> subpixel_bits, 0, extent));
     }
     /// Pixels from the image's centre to the end of coordinates of so many bits.
@@ -12260,10 +12244,10 @@ inline int128 wide_area(const screen_vertex& a, const screen_vertex& b, const sc
 /// The pixels of an image whose centres lie in a triangle's bounding box.
 inline rect centre_rect(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c,
                         const pixel_grid& grid) {
-    return {grid.first_center((std::min)({a.x, b.x, c.x}), grid.width),
-            grid.first_center((std::min)({a.y, b.y, c.y}), grid.height),
-            grid.first_center((std::max)({a.x, b.x, c.x}), grid.width),
-            grid.first_center((std::max)({a.y, b.y, c.y}), grid.height)};
+    return {grid.first_centre((std::min)({a.x, b.x, c.x}), grid.width),
+            grid.first_centre((std::min)({a.y, b.y, c.y}), grid.height),
+            grid.first_centre((std::max)({a.x, b.x, c.x}), grid.width),
+            grid.first_centre((std::max)({a.y, b.y, c.y}), grid.height)};
 }
 
 /// Whether the centres in a triangle's bounding box all lie beyond the same side of the image.
@@ -12443,7 +12427,7 @@ class projection {
     /// @param exact  whether to divide by w rather than multiply by 1 / w, which may be off in the last bit. Exact
     ///               positions are the nearest on the grid up to 2^27 sub-pixels from its centre, and within 2^-52 of
     ///               the distance beyond that
-    projection(const pixel_grid& grid, keep_depth keep, bool exact = true)
+    projection(const pixel_grid& grid, keep_depth keep, bool exact)
         : grid_(grid),
           half_width_(0.5 * grid.width),
           half_height_(0.5 * grid.height),
@@ -12790,12 +12774,12 @@ inline bool is_small(std::int64_t width, std::int64_t height) {
     return (width | height) < small_limit;
 }
 
-/// Whether a triangle that is not small is more than 2^12 times as long as wide. In float, weights have an error of
-/// 2^-24 of its length squared, which is no longer small beside its area; those of wide triangles are computed in
-/// double.
+/// Whether a triangle is more than 2^12 times as long as wide. In float, weights have an error of 2^-24 of its length
+/// squared, and so have its quick depths; neither is small beside its area then. It becomes a wide triangle, whose
+/// weights and depths are computed in double.
 /// @param area  twice the area
 inline bool is_sliver(std::int64_t width, std::int64_t height, std::int64_t area) {
-    return !is_small(width, height) && (width * width + height * height) >> 12 > numeric::abs(area);
+    return (width * width + height * height) >> 12 > numeric::abs(area);
 }
 
 /// The vertices of N triangles and their bounding boxes.
@@ -12820,8 +12804,14 @@ struct triangle_lanes {
     INSONIFY_INLINE bool are_small() const { return !any(ints(((east - west) | (south - north)) >= small_limit)); }
     /// Twice the areas, positive for clockwise on the screen; only of small triangles.
     INSONIFY_INLINE void area(ints& into) const { into = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax); }
+    /// The same as is_sliver, only of small triangles: both squares are below 2^30.
+    /// @param area  twice the areas
+    INSONIFY_INLINE void is_sliver(const ints& area, ints& into) const {
+        const ints width = east - west, height = south - north, twice = area < 0 ? 0 - area : area;
+        into = ints((width * width + height * height) >> 12 > twice);
+    }
 
-    /// The pixels whose centres lie in the bounding boxes, see pixel_grid::first_center.
+    /// The pixels whose centres lie in the bounding boxes, see pixel_grid::first_centre.
     INSONIFY_INLINE void centres(const drawn_area<N>& area, rect_lanes<N>& into) const {
         into.x0 = (west + area.before) >> area.bits;
         into.y0 = (north + area.before) >> area.bits;
@@ -13457,7 +13447,6 @@ class screen_mesh {
     screen_mesh(const mesh_view& m, const Shader& shader, const pixel_grid& grid, const tile_grid& tiles,
                 const draw_options<Depth>& options, bool has_weights, Record* records, E& ex)
         : mesh_(m),
-          indices_(m.triangles.data()),
           compact_count_(static_cast<std::uint32_t>(m.triangles.size())),
           grid_(grid),
           projection_(grid, options.keep, std::is_same_v<Real, double>),
@@ -13516,30 +13505,20 @@ class screen_mesh {
     std::uint32_t compact_count() const { return compact_count_; }
     /// The index in the mesh of a triangle.
     std::uint32_t triangle(std::uint32_t id) const { return is_compact(id) ? id : wide_[id - compact_count_].triangle; }
-    const glm::uvec3& indices(std::uint32_t triangle) const { return indices_[triangle]; }
+    const glm::uvec3& indices(std::uint32_t triangle) const { return mesh_.triangles[triangle]; }
     const screen_vertices<Real>& vertices() const { return vertices_; }
 
     /// Vertex i of a compact triangle, in the mesh's order.
     INSONIFY_INLINE const packed_vertex<Real>& vertex(std::size_t triangle, int i) const {
-        return vertices_.packed[indices_[triangle][i]];
+        return vertices_.packed[mesh_.triangles[triangle][i]];
     }
 
   private:
     template <class Screen, class Shader>
     friend struct assembly_kernel;
 
-    /// The counters of draw_stats.
-    enum class outcome { drawn, culled, missed, degenerate, not_finite };
-
-    static void count(draw_stats& stats, outcome o) {
-        switch (o) {
-            case outcome::drawn: ++stats.drawn; break;
-            case outcome::culled: ++stats.culled; break;
-            case outcome::missed: break;  // the remainder
-            case outcome::degenerate: ++stats.degenerate; break;
-            case outcome::not_finite: ++stats.not_finite; break;
-        }
-    }
+    /// The counter that a triangle belongs to.
+    using outcome = std::uint64_t draw_stats::*;
 
     bool is_culled(bool front) const {
         return (cull_ == cull_mode::back && !front) || (cull_ == cull_mode::front && front);
@@ -13554,16 +13533,16 @@ class screen_mesh {
         const glm::uvec3& index = mesh_.triangles[triangle];
         const screen_vertex a = vertices_[index.x], b = vertices_[index.y], c = vertices_[index.z];
         const rect pixels = centre_rect(a, b, c, grid_);
-        if (is_outside(pixels, grid_)) return outcome::missed;
+        if (is_outside(pixels, grid_)) return &draw_stats::missed;
         const std::int64_t area = compact_area(a, b, c);
-        if (area == 0) return outcome::degenerate;
-        if (is_culled(area < 0)) return outcome::culled;
-        if (pixels.empty()) return outcome::missed;
+        if (area == 0) return &draw_stats::degenerate;
+        if (is_culled(area < 0)) return &draw_stats::culled;
+        if (pixels.empty()) return &draw_stats::missed;
         const std::int64_t width = (std::max)({a.x, b.x, c.x}) - (std::min)({a.x, b.x, c.x});
         const std::int64_t height = (std::max)({a.y, b.y, c.y}) - (std::min)({a.y, b.y, c.y});
         if (is_sliver(width, height, area)) return assemble_wide(shader, id, tiles, out);
         out.runs.add(id, 1, tiles.touched(pixels), is_small(width, height));
-        return outcome::drawn;
+        return &draw_stats::drawn;
     }
 
     /// The same for a triangle that may have to be clipped, or that takes 128 bits.
@@ -13575,18 +13554,18 @@ class screen_mesh {
             const glm::dvec4 p(position_of(shader(mesh_vertex(mesh_, mesh_.triangles[triangle][i]))));
             if (!(numeric::is_finite(p.x) && numeric::is_finite(p.y) && numeric::is_finite(p.z) &&
                   numeric::is_finite(p.w)))
-                return outcome::not_finite;
+                return &draw_stats::not_finite;
             clip[static_cast<std::size_t>(i)] = p;
         }
         const clip_polygon polygon = projection_.clip(clip);
         if (polygon.was_cut) ++out.stats.clipped;
-        if (polygon.count < 3) return outcome::missed;
+        if (polygon.count < 3) return &draw_stats::missed;
 
         const screen_polygon on_screen(polygon, projection_);
-        if (is_outside(on_screen.pixels(grid_), grid_)) return outcome::missed;
-        if (on_screen.area_sign() == 0) return outcome::degenerate;
-        if (is_culled(on_screen.area_sign() < 0)) return outcome::culled;
-        outcome result = outcome::missed;
+        if (is_outside(on_screen.pixels(grid_), grid_)) return &draw_stats::missed;
+        if (on_screen.area_sign() == 0) return &draw_stats::degenerate;
+        if (is_culled(on_screen.area_sign() < 0)) return &draw_stats::culled;
+        outcome result = &draw_stats::missed;
         on_screen.for_each_part(grid_, [&](std::array<int, 3> corners, const rect& pixels, bool is_span) {
             wide_triangle part{};
             for (std::size_t k = 0; k < 3; ++k) {
@@ -13597,13 +13576,12 @@ class screen_mesh {
             if (is_span) part.span = pixels;
             out.runs.add(compact_count_ + static_cast<std::uint32_t>(out.wide.size()), 1, tiles.touched(pixels), false);
             out.wide.push_back(part);
-            result = outcome::drawn;
+            result = &draw_stats::drawn;
         });
         return result;
     }
 
     mesh_view mesh_;
-    const glm::uvec3* indices_;
     std::uint32_t compact_count_;  ///< ids below this are indices into the mesh, the others wide triangles
     pixel_grid grid_;
     projection projection_;
@@ -13636,11 +13614,11 @@ struct assembly_kernel {
   private:
     /// Out of line: clipping would be compiled into each copy of the kernel.
     INSONIFY_RARE void assemble_one(std::size_t triangle) const {
-        Screen::count(out.stats, screen.assemble(shader, triangle, tiles, out));
+        ++(out.stats.*screen.assemble(shader, triangle, tiles, out));
     }
 
     /// @returns false if one of the triangles isn't small, unless all lie outside of the picture: in a close-up, most
-    ///          triangles of a surface do, and are large
+    ///          triangles of a surface do, and are large; and if one is a sliver
     template <int N>
     INSONIFY_INLINE bool assemble_small(std::size_t triangle, const drawn_area<N>& picture) const {
         using ints = lanes<std::int32_t, N>;
@@ -13657,8 +13635,9 @@ struct assembly_kernel {
         const unsigned outside = movemask<N>(disjoint);
         if (outside == all) return true;
         if (!t.are_small()) return false;
-        ints area, empty, culled = ints{};
+        ints area, sliver, empty, culled = ints{};
         t.area(area);
+        t.is_sliver(area, sliver);
         if (screen.cull_ == cull_mode::back) culled = ints(area > 0);
         if (screen.cull_ == cull_mode::front) culled = ints(area < 0);
         pixels.intersect(picture.pixels);
@@ -13670,6 +13649,7 @@ struct assembly_kernel {
                    last_tile = ints(((pixels.x1 - 1) >> size) | ((pixels.y1 - 1) >> size << 16));
         const unsigned degenerate = movemask<N>(ints(area == 0)) & ~outside, turned = movemask<N>(culled) & ~outside,
                        drawn = all & ~(movemask<N>(empty) | degenerate | turned);
+        if ((movemask<N>(sliver) & drawn) != 0) return false;
         out.stats.degenerate += static_cast<unsigned>(std::popcount(degenerate));
         out.stats.culled += static_cast<unsigned>(std::popcount(turned));
         out.stats.drawn += static_cast<unsigned>(std::popcount(drawn));
@@ -14061,9 +14041,9 @@ struct small_fill {
         const floats lowest = floats{} + planes.lowest[k], highest = floats{} + planes.highest[k];
         const lanes<std::uint32_t, N> drawn = lanes<std::uint32_t, N>{} + ids[k];
         const int x = t.x0[k] + first, end = t.y1[k];
-        const std::ptrdiff_t start = tile.index(x, t.y0[k]), stride = tile.stride();
-        float* depth = tile.depths() + start;
-        std::uint32_t* shown = HasIds ? tile.ids() + start : nullptr;
+        const std::ptrdiff_t stride = tile.stride();
+        float* depth = tile.depth_at(x, t.y0[k]);
+        std::uint32_t* shown = tile.id_at(x, t.y0[k]);
         auto down = static_cast<Real>(t.down[k]);  // increments exactly: integers of few bits
         for (int y = t.y0[k]; y < end; ++y) {
             const ints covered = ints((bc | ca | ab) >= 0);
@@ -14123,7 +14103,7 @@ struct tile_kernel {
         tile.template clear<Width>();
         if (load_image) copy<N>([&](int x, int y) { return std::pair(tile.depth_at(x, y), &image(x, y)); });
         const drawn_area<N> area(triangles.grid(), triangles.pixels);
-        run_reader left(triangles.runs());
+        run_reader left(triangles.bin);
         while (!left.empty()) {
             draw_small_runs<N>(left, area);
             if (left.empty()) break;
@@ -14235,6 +14215,24 @@ INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/fragment_lanes.hpp --------------------------------------------------------
 // The input of fragment shaders over SIMD lanes: N adjacent pixels of a row.
+//
+//     struct surface { float height, brightness; };  // the varyings of the vertex shader
+//
+//     struct shade_surface {
+//         image<float>& picture;
+//         template <int N>  // 1 and more, as the instruction set has
+//         INSONIFY_INLINE void operator()(const fragment_lanes<N, surface>& f) const {
+//             typename fragment_lanes<N, surface>::floats height, brightness;
+//             f.interpolate(height, 0);
+//             f.interpolate(brightness, 1);
+//             f.store(picture, height < 1.0f ? brightness : 0.5f * brightness);
+//         }
+//     };
+//
+//     draw(mesh, vertex_shader, shade_surface{picture}, framebuffer<void>{depth});
+//
+// INSONIFY_INLINE compiles the shader for each instruction set. To read a single lane, copy all of them to an array:
+// `float heights[N]; std::memcpy(heights, &height, sizeof height);`.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -14349,7 +14347,6 @@ struct tile_triangles {
     const void* records;  ///< varyings of the vertices, which shading reads later; or null
     std::size_t record_size;
 
-    std::span<const triangle_run> runs() const { return bin; }
     const pixel_grid& grid() const { return screen.grid(); }
     INSONIFY_INLINE const packed_vertex<Real>& vertex(std::uint32_t id, int i) const { return screen.vertex(id, i); }
 
@@ -14423,20 +14420,20 @@ std::uint64_t shade(const mesh_view& m, const VertexShader& vertex_shader, const
             }
         }
     };
-    for (const triangle_run& run : triangles.runs())
+    for (const triangle_run& run : triangles.bin)
         for (std::uint32_t i = 0; i < run.count; ++i) shade_triangle(run.first + i);
     return shaded;
 }
 
 /// Pixel centres of a row on the sub-pixel grid. Unsigned, so that differences to vertices off the grid wrap around.
 template <int N>
-struct row_centers {
+struct row_centres {
     using positions = lanes<std::uint32_t, N>;
     int y, subpixel_bits;
     positions first;  ///< x of the picture's first N pixels
     positions down;   ///< y
 
-    INSONIFY_INLINE row_centers(const pixel_grid& grid, int row) : y(row), subpixel_bits(grid.subpixel_bits) {
+    INSONIFY_INLINE row_centres(const pixel_grid& grid, int row) : y(row), subpixel_bits(grid.subpixel_bits) {
         iota<std::uint32_t, N>(first);
         first = (first << subpixel_bits) + static_cast<std::uint32_t>(grid.half());
         down = positions{} + static_cast<std::uint32_t>(grid.centre(row));
@@ -14478,7 +14475,7 @@ struct lane_shading_kernel {
     template <int N>
     INSONIFY_INLINE int find(fragment_lanes<N, Varyings>* found, int x0, int y) const {
         using ints = lanes<std::int32_t, N>;
-        const row_centers<N> row(screen.grid(), y);
+        const row_centres<N> row(screen.grid(), y);
         const ints set = ints{} - 1;  // a comparison of single numbers is 1, not a mask
         ints column;
         iota<std::int32_t, N>(column);
@@ -14501,7 +14498,7 @@ struct lane_shading_kernel {
 
     /// Where some pixels are not visible, their lanes take the triangle of one that is.
     template <int N>
-    INSONIFY_INLINE void look_up_some(fragment_lanes<N, Varyings>& f, int x, const row_centers<N>& row,
+    INSONIFY_INLINE void look_up_some(fragment_lanes<N, Varyings>& f, int x, const row_centres<N>& row,
                                       const lanes<std::int32_t, N>& visible, const std::uint32_t* ids) const {
         std::uint32_t shown[static_cast<unsigned>(N)], some_id = 0;
         for (int k = 0; k < N; ++k)
@@ -14514,7 +14511,7 @@ struct lane_shading_kernel {
     }
 
     template <int N>
-    INSONIFY_INLINE void look_up(fragment_lanes<N, Varyings>& f, int x, const row_centers<N>& row,
+    INSONIFY_INLINE void look_up(fragment_lanes<N, Varyings>& f, int x, const row_centres<N>& row,
                                  const lanes<std::int32_t, N>& visible, bool all_visible,
                                  const std::uint32_t* ids) const {
         f.x = x;
@@ -14525,21 +14522,19 @@ struct lane_shading_kernel {
         f.depth_sign_ = depth_sign;
         lanes<std::uint32_t, N> id;
         load(id, ids);
-        const bool any_wide = any(ints_of<N>(id >= screen.compact_count()));
+        const bool any_wide = any(lanes<std::int32_t, N>(id >= screen.compact_count()));
         std::memcpy(f.triangles, ids, sizeof f.triangles);
         if (any_wide)
             for (std::uint32_t& triangle : f.triangles) triangle = screen.triangle(triangle);
         weigh<N>(f, row);
         if (any_wide) weigh_wide<N>(f, ids);
     }
-    template <int N>
-    using ints_of = lanes<std::int32_t, N>;
 
     /// Sets weights and varyings. A vertex's weight is the area of the triangle opposite to it; the sign of the whole
     /// cancels. In float its error is 2^-24 of the triangle's length squared.
     template <int N>
-    INSONIFY_INLINE void weigh(fragment_lanes<N, Varyings>& f, const row_centers<N>& row) const {
-        using positions = typename row_centers<N>::positions;
+    INSONIFY_INLINE void weigh(fragment_lanes<N, Varyings>& f, const row_centres<N>& row) const {
+        using positions = typename row_centres<N>::positions;
         using ints = lanes<std::int32_t, N>;
         using floats = lanes<float, N>;
         const glm::uvec3* corners[static_cast<unsigned>(N)];
@@ -19714,10 +19709,11 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Larger concave polygons become a fan, which covers too much, so that the time is linear for any input.
-inline constexpr std::size_t ear_clipping_limit = 512;
-
 namespace detail::inline INSONIFY_FLAGS {
+
+/// Corners up to which concave polygons are cut. Two facing arcs of 2048 corners each, the slowest polygon found, take
+/// 0.4 s; twice as many corners take four times as long.
+inline constexpr std::size_t ear_clipping_limit = 4096;
 
 /// A polygon projected along the axis closest to its normal, so that it is counter-clockwise.
 class flat_polygon {
@@ -19789,22 +19785,36 @@ inline void clip_ears(const flat_polygon& polygon, std::uint32_t count, std::vec
     triangles.emplace_back(ring[tip].previous, tip, ring[tip].next);
 }
 
+/// See triangulate.
+/// @returns false for a concave polygon beyond ear_clipping_limit, of which nothing is appended
+inline bool append_triangles(std::span<const glm::vec3> corners, std::vector<glm::uvec3>& triangles) {
+    const auto count = static_cast<std::uint32_t>(corners.size());
+    if (count > 3) {
+        const flat_polygon polygon(corners);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if (!(polygon.turn(i, (i + 1) % count, (i + 2) % count) < 0)) continue;
+            if (count > ear_clipping_limit) return false;
+            clip_ears(polygon, count, triangles);
+            return true;
+        }
+    }
+    for (std::uint32_t i = 2; i < count; ++i) triangles.emplace_back(0u, i - 1, i);
+    return true;
+}
+
 }  // namespace detail::inline INSONIFY_FLAGS
 
 inline namespace INSONIFY_FLAGS {
 
 /// Appends `corners.size() - 2` triangles that cover the polygon and face as it does, as indices of its corners.
 /// Exact for simple polygons, also slightly non-planar ones; a self-intersecting one gets some triangulation. Nothing
-/// is appended for fewer than three corners.
+/// is appended for fewer than three corners. The time is quadratic for concave polygons, which may have 4096 corners,
+/// and linear for convex ones, which may have any number.
+/// @throws invalid_input for a concave polygon with more than 4096 corners
 inline void triangulate(std::span<const glm::vec3> corners, std::vector<glm::uvec3>& triangles) {
-    const auto count = static_cast<std::uint32_t>(corners.size());
-    if (count > 3 && count <= ear_clipping_limit) {
-        const detail::flat_polygon polygon(corners);
-        for (std::uint32_t i = 0; i < count; ++i)
-            if (polygon.turn(i, (i + 1) % count, (i + 2) % count) < 0)
-                return detail::clip_ears(polygon, count, triangles);
-    }
-    for (std::uint32_t i = 2; i < count; ++i) triangles.emplace_back(0u, i - 1, i);
+    if (!detail::append_triangles(corners, triangles))
+        detail::refuse("corners of a concave polygon", corners.size(),
+                       "at most " + detail::to_text(detail::ear_clipping_limit) + ": cut it");
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -20006,7 +20016,9 @@ class obj_reader {
             outline_.push_back(positions_[polygon_.back().position]);
         }
         if (polygon_.size() < 3) fail("a face has " + to_text(polygon_.size()) + " corners, expected at least 3");
-        triangulate(outline_, cuts_);
+        if (!append_triangles(outline_, cuts_))
+            fail("a concave face has " + to_text(polygon_.size()) + " corners, expected at most " +
+                 to_text(ear_clipping_limit) + ": cut it");
         for (const glm::uvec3& cut : cuts_)
             for (int i = 0; i < 3; ++i) corners_.push_back(polygon_[cut[i]]);
     }
@@ -20089,8 +20101,9 @@ inline namespace INSONIFY_FLAGS {
 ///                map coordinates: steps of a float are half a metre at 5000 km
 /// @throws invalid_input if `origin` is out of range
 /// @throws io_error with the name and line number for: a coordinate that is missing, no number, or out of range; an
-///         index that is 0, no integer, or refers to a line not yet given; a face with fewer than 3 corners; a text
-///         without a face, such as the path of a file, which `load_obj` takes; more than 2 GiB of text
+///         index that is 0, no integer, or refers to a line not yet given; a face with fewer than 3 corners, or a
+///         concave one with more than 4096; a text without a face, such as the path of a file, which `load_obj` takes;
+///         more than 2 GiB of text
 inline mesh read_obj(std::string_view text, std::string_view name = "OBJ text",
                      const glm::dvec3& origin = glm::dvec3(0)) {
     return detail::obj_reader(text, name, origin).read();
@@ -20361,18 +20374,20 @@ struct aeroplane {
     float sweep = 0.08f;                              ///< of the leading edge, radians, -0.5 to 0.8
     float dihedral = 0.08f;                           ///< radians, -0.2 to 0.3
     float wing_position = 0.2f;  ///< of the root's leading edge ahead of the middle, share of the length, -0.1 to 0.4
-    float tail_span = span * 0.37f;                    ///< of the tailplane, metres, at most the span
-    float fin_height = length * 2.1f / 14.4f;          ///< above the fuselage, metres, at most length / 3
+    /// Of the tailplane, metres, 1.2 fuselage_diameter to the span.
+    float tail_span = (std::max)(span * 0.37f, 1.2f * fuselage_diameter);
+    float fin_height = length * 2.1f / 14.4f;          ///< above the fuselage, metres, length / 50 to length / 3
     int engines = 2;                                   ///< 0 to 4; odd ones sit in the nose, the others in the wings
-    float propeller_diameter = length * 3.4f / 14.4f;  ///< metres, at most the length; 0: without propellers
+    float propeller_diameter = length * 3.4f / 14.4f;  ///< metres, length / 50 to length; 0: without propellers
 
     float port_wing = 1;       ///< share of the half span that is left, 0 to 1
     float starboard_wing = 1;  ///< the same of the other
-    float torn_off = 0;     ///< metres to the lost parts of the wings, which lie on the bottom; 0: they are not there
-    float tail_gap = 0;     ///< metres between the fuselage and a tail that broke off; 0: whole
-    float tail_yaw = 0.5f;  ///< radians that such a tail is turned by, -1.6 to 1.6
+    /// Metres to the lost parts of the wings, which lie on the bottom, at most 10 lengths; 0: they are not there.
+    float torn_off = 0;
+    float tail_gap = 0;        ///< metres between the fuselage and a tail that broke off, at most 10 lengths; 0: whole
+    float tail_yaw = 0.5f;     ///< radians that such a tail is turned by, -1.6 to 1.6
     bool is_inverted = false;  ///< lies on its back, on a fin that is crushed to a third
-    int segments = 24;         ///< around the fuselage, 8 to 512; as many along it and along a wing
+    int segments = 24;         ///< around the fuselage, 8 to 512; twice as many along it and along a wing
     std::uint64_t seed = 1;    ///< of torn edges
 };
 
@@ -20944,7 +20959,7 @@ inline namespace INSONIFY_ABI {
 /// The default footprint is the pallet of 1.2 m by 0.8 m (ISO 6780, EN 13698-1) that transport cases are sized for.
 struct crate {
     glm::vec3 size{1.2f, 0.8f, 0.8f};  ///< metres; the largest at most 50 times the least
-    float board = 0.025f;              ///< thickness, metres, at most a tenth of the least size
+    float board = 0.025f;              ///< thickness, metres, 1/1000 of the largest to 1/10 of the least size
     int boards = 5;                    ///< one above another on each side, 1 to 64
     float gap = 0.1f;                  ///< share of a board's width that is open between two, 0.01 to 0.9
     bool is_open = false;              ///< the lid is missing
@@ -21037,7 +21052,7 @@ inline namespace INSONIFY_ABI {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The convex hull, counter-clockwise and without corners on straight edges, of the finite positions that are less than
+/// The convex hull, counter-clockwise and without corners on straight edges, of the finite positions that are at most
 /// `height` above the lowest one, seen from above. Fewer than three corners if those lie on a line.
 /// @param height  metres, >= 0: masts and wings that stick out higher do not count
 /// @throws invalid_input for a pose that `to_world` refuses, or a height that is negative or NaN
@@ -21117,9 +21132,9 @@ struct hull {
     bool has_funnel = true;
     int hatches = 2;                 ///< open, 0 to 8
     int masts = 2;                   ///< 0 to 4, with two derricks each
-    float mast_height = length / 5;  ///< above the deck, metres, at most the length
+    float mast_height = length / 5;  ///< above the deck, metres, length / 1000 to length
 
-    float break_gap = 0;          ///< metres between the two halves of a broken ship; 0: in one piece
+    float break_gap = 0;  ///< metres between the two halves of a broken ship, at most the length; 0: in one piece
     float break_position = 0.1f;  ///< from midships, share of the length, -0.4 to 0.4
     float break_yaw = 0.3f;       ///< radians that the bow half is turned by, -1.6 to 1.6
     float break_roll = -0.25f;    ///< radians that the bow half is rolled by, -1.6 to 1.6
@@ -21325,7 +21340,7 @@ inline void append_frame(mesh& into, const hull_lines& lines, double u, double s
     for (int i = 0; i <= 6; ++i) {
         const double w = 0.02 + (highest - 0.02) * i / 6;
         const glm::dvec3 plate = lines.between(u, w, side, lines.plating() + w * (lines.top(u) - lines.plating()));
-        const glm::dvec3 inward(0, -side * (std::min)(size + lines.plating(), 0.8 * std::abs(plate.y)), 0),
+        const glm::dvec3 inward(0, -side * (std::min)(size + lines.plating(), 0.8 * numeric::abs(plate.y)), 0),
             along(0.4 * size, 0, 0);
         sections.push_back({plate - along, plate + along, plate + along + inward, plate - along + inward});
     }
@@ -21748,8 +21763,8 @@ struct lobster_pot {
     float height = 0.41f;     ///< metres
     float bar = 0.016f;       ///< diameter of the frame, metres, 1/1000 of the largest to 1/8 of the least size
     int hoops = 4;            ///< 2 to 16
-    float mesh_size = 0.07f;  ///< between two twines, metres, at least 1/64 of the largest size; 0: without a net
-    float twine = 0.005f;     ///< diameter of the net's bars, metres, at most `bar`
+    float mesh_size = 0.07f;  ///< between two twines, metres, 1/64 of the largest size to that size; 0: without a net
+    float twine = 0.005f;     ///< diameter of the net's bars, metres, 1/2000 of the largest size to `bar`
     float crushed = 0;        ///< 0: upright, 1: hoops bent over until a fifth of the height is left
     int segments = 12;        ///< straight pieces of a hoop, 6 to 256
 };
@@ -21879,8 +21894,9 @@ inline namespace INSONIFY_ABI {
 struct open_pipe {
     float diameter = 0.71f;  ///< outside, metres
     float length = 12;       ///< from end to end, metres
-    float wall = 0.065f;     ///< thickness, metres, below half the diameter
-    float flange = 0;        ///< metres by which a flange at either end stands out; 0: none
+    float wall = 0.065f;     ///< thickness, metres, 1/10000 of the larger size to below half the diameter
+    /// Metres by which a flange at either end stands out, 1/10000 of the larger size to the diameter; 0: none.
+    float flange = 0;
     float broken = 0;        ///< metres by which the +x end is ragged, at most half the length; 0: cut square
     int segments = 48;       ///< around the axis, 6 to 8192; see `segments_for`
     std::uint64_t seed = 1;  ///< of the ragged end
@@ -21971,9 +21987,10 @@ inline namespace INSONIFY_ABI {
 /// of volume pi / 12 (D^2 + D d + d^2) h.
 struct truncated_cone {
     float diameter = 0.98f;      ///< of the base, metres
-    float top_diameter = 0.52f;  ///< metres
-    float height = 0.47f;        ///< with the boss, metres
-    float shoulder = 0.05f;  ///< metres that the edge of the top is rounded by, at most a fifth of the height; 0: sharp
+    float top_diameter = 0.52f;  ///< metres, diameter / 10000 to diameter
+    float height = 0.47f;        ///< with the boss, metres, at least diameter / 10000
+    /// Metres that the edge of the top is rounded by, at most a fifth of height and of top_diameter; 0: sharp.
+    float shoulder = 0.05f;
     float boss_diameter = 0.22f;  ///< metres, at most 0.8 of the top; 0: none
     float boss_height = 0.04f;    ///< metres, at most a quarter of the height; 0: none
     int lugs = 2;                 ///< 0 to 8
@@ -21998,7 +22015,7 @@ inline void validate(const truncated_cone& c) {
     detail::require_segments("truncated_cone.segments", c.segments, 6, 8192);
 }
 
-/// Some 14 segments triangles, and 64 for each lug.
+/// 16 segments triangles, 8 segments with a sharp shoulder, 4 segments fewer without a boss; and 44 for each lug.
 /// @throws invalid_input as `validate` does
 inline mesh to_mesh(const truncated_cone& c) {
     validate(c);
@@ -22105,7 +22122,7 @@ inline mesh to_mesh(const tyre& t) {
             auto [sine, cosine] = numeric::sin_cos_turns(turns);
             if (i == 0 || i == steps) cosine = 0;
             const double out = cosine > 0 ? numeric::pow(cosine, 2 / 3.2) : 0.0;
-            const double up = numeric::pow(std::abs(sine), 2 / 3.2);
+            const double up = numeric::pow(numeric::abs(sine), 2 / 3.2);
             outline.push_back({rim + radial * out, half + (sine < 0 ? -up : up) * axial, 1, 0});
         }
     };
@@ -22154,12 +22171,12 @@ inline namespace INSONIFY_ABI {
 /// Underwater Warfare Systems); the slopes are estimates from photographs.
 struct wedge {
     float length = 1.02f;       ///< metres
-    float width = 0.8f;         ///< at the tail, metres
-    float height = 0.385f;      ///< at the ridge, metres
-    float nose_height = 0.06f;  ///< metres, below the height
-    float nose_width = 0.46f;   ///< metres, at most the width
-    float tail_height = 0.2f;   ///< metres, below the height
-    float ridge = 0.2f;         ///< metres from the tail to the ridge, below half the length
+    float width = 0.8f;         ///< at the tail, metres, at least length / 10000
+    float height = 0.385f;      ///< at the ridge, metres, at least 1/10000 of length and width
+    float nose_height = 0.06f;  ///< metres, height / 10000 to height
+    float nose_width = 0.46f;   ///< metres, width / 10000 to width
+    float tail_height = 0.2f;   ///< metres, height / 10000 to height
+    float ridge = 0.2f;         ///< metres from the tail to the ridge, 1/10000 to half of the length
     float side_slope = 0.35f;   ///< inward per upward metre of the sides, >= 0; the ridge keeps a tenth of the width
 };
 
@@ -23327,7 +23344,7 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
     if (m.tail > 0) {
         // A ridge behind the moat, as wide as the outline is across the current.
         const double length = static_cast<double>(m.tail), along = (at.x - lee_end - 0.5 * width) / length;
-        const double half = 0.5 * (right - left), side = std::abs(at.y - 0.5 * (left + right));
+        const double half = 0.5 * (right - left), side = numeric::abs(at.y - 0.5 * (left + right));
         if (along > 0 && along < 1)
             change += static_cast<double>(m.mound) * 6.75 * along * (1 - along) * (1 - along) *
                       biweight(side / (half + 0.5 * width));

@@ -40,8 +40,7 @@ int main(int argc, char** argv) {
                 median_ms([&] { in::seabed::sample(scene.seabed, grid, pool); }));
     std::printf("  tessellate it           %7.1f ms\n", median_ms([&] { in::seabed::tessellate(field, pool); }));
     std::printf("  draw its shadow map     %7.1f ms\n", median_ms([&] {
-                    in::shadow::height_map map(light, in::shadow::extent_of(in::bounds(bottom, pool), place, light),
-                                               texel);
+                    in::shadow::height_map map(light, in::shadow::extent_of(in::bounds(bottom), place, light), texel);
                     map.cast(bottom, place, pool);
                 }));
     const auto frame_ms = [&]<class Shadow, class Labels>(in::render_options<Shadow, Labels> options) {

@@ -1,8 +1,6 @@
 // Axis-aligned boxes, for fitting cameras and culling.
 #pragma once
 
-#include <insonify/core/detail/dynamic_array.hpp>
-#include <insonify/core/executor.hpp>
 #include <insonify/core/linear.hpp>
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/lanes.hpp>
@@ -121,23 +119,14 @@ inline bounding_box transformed(const bounding_box& box, const affine& map) {
 }
 
 /// The smallest box around all finite positions, including those that no triangle uses.
-template <executor_argument E = serial_executor>
-bounding_box bounds(const mesh_view& m, E&& ex = {}) {
-    constexpr std::size_t grain = 65536;
-    detail::dynamic_array<bounding_box> parts((m.positions.size() + grain - 1) / grain);
-    bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
-        constexpr float infinity = std::numeric_limits<float>::infinity();
-        glm::vec3 lower(infinity), upper(-infinity);
-        bool all_finite = true;
-        dispatch(detail::bounds_kernel{&m.positions[first], last - first, lower, upper, all_finite}, best_isa());
-        bounding_box& part = parts[first / grain];
-        if (all_finite)
-            part = {glm::dvec3(lower), glm::dvec3(upper)};
-        else
-            for (std::size_t i = first; i < last; ++i) part = include(part, glm::dvec3(m.positions[i]));
-    });
+inline bounding_box bounds(const mesh_view& m) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    glm::vec3 lower(infinity), upper(-infinity);
+    bool all_finite = true;
+    dispatch(detail::bounds_kernel{m.positions.data(), m.positions.size(), lower, upper, all_finite}, best_isa());
+    if (all_finite) return {glm::dvec3(lower), glm::dvec3(upper)};
     bounding_box box;
-    for (const bounding_box& part : parts) box = merge(box, part);
+    for (const glm::vec3& p : m.positions) box = include(box, glm::dvec3(p));
     return box;
 }
 

@@ -50,24 +50,23 @@ inline std::vector<glm::vec3> smooth_normals(const mesh& m) {
     return normals;
 }
 
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
+
 /// Flips each triangle whose three corner normals all point to its back: normals define the outside.
 /// @param m  its indices have positions, and positions have normals
-/// @returns the number of flipped triangles
-inline std::size_t wind_by_normals(mesh& m) {
-    std::size_t turned = 0;
+inline void wind_by_normals(mesh& m) {
     for (glm::uvec3& t : m.triangles) {
         const glm::dvec3 a(m.positions[t.x]), b(m.positions[t.y]), c(m.positions[t.z]);
         const glm::dvec3 facet = numeric::cross(b - a, c - a);
         bool is_back = true;
         for (int i = 0; i < 3; ++i) is_back = is_back && numeric::dot(facet, glm::dvec3(m.normals[t[i]])) < 0;
-        if (!is_back) continue;
-        std::swap(t.y, t.z);
-        ++turned;
+        if (is_back) std::swap(t.y, t.z);
     }
-    return turned;
 }
 
-}  // namespace INSONIFY_FLAGS
+}  // namespace detail::inline INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

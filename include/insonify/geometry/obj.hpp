@@ -209,7 +209,9 @@ class obj_reader {
             outline_.push_back(positions_[polygon_.back().position]);
         }
         if (polygon_.size() < 3) fail("a face has " + to_text(polygon_.size()) + " corners, expected at least 3");
-        triangulate(outline_, cuts_);
+        if (!append_triangles(outline_, cuts_))
+            fail("a concave face has " + to_text(polygon_.size()) + " corners, expected at most " +
+                 to_text(ear_clipping_limit) + ": cut it");
         for (const glm::uvec3& cut : cuts_)
             for (int i = 0; i < 3; ++i) corners_.push_back(polygon_[cut[i]]);
     }
@@ -292,8 +294,9 @@ inline namespace INSONIFY_FLAGS {
 ///                map coordinates: steps of a float are half a metre at 5000 km
 /// @throws invalid_input if `origin` is out of range
 /// @throws io_error with the name and line number for: a coordinate that is missing, no number, or out of range; an
-///         index that is 0, no integer, or refers to a line not yet given; a face with fewer than 3 corners; a text
-///         without a face, such as the path of a file, which `load_obj` takes; more than 2 GiB of text
+///         index that is 0, no integer, or refers to a line not yet given; a face with fewer than 3 corners, or a
+///         concave one with more than 4096; a text without a face, such as the path of a file, which `load_obj` takes;
+///         more than 2 GiB of text
 inline mesh read_obj(std::string_view text, std::string_view name = "OBJ text",
                      const glm::dvec3& origin = glm::dvec3(0)) {
     return detail::obj_reader(text, name, origin).read();

@@ -2,18 +2,15 @@
 // that callers need no flag and a wrong flag cannot change a result.
 #pragma once
 
-#include <insonify/core/executor.hpp>
 #include <insonify/geometry/mesh.hpp>
 
 #if INSONIFY_BODIES
-#include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/lanes.hpp>
 #include <insonify/core/simd/transpose.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #endif
 #include <optional>
@@ -46,7 +43,7 @@ struct cell_row_kernel {
     const glm::uvec3* triangles;
     std::size_t cells;
     const std::uint32_t (&first)[static_cast<unsigned>(indices)];  ///< vertices of the first cell's triangles
-    std::atomic<bool>& differs;                                    ///< set if a triangle is another
+    bool& differs;                                                 ///< set if a triangle is another
 
     template <int N>
     INSONIFY_INLINE void run() const {
@@ -118,15 +115,18 @@ struct cell_cut {
 }  // namespace detail::inline INSONIFY_FLAGS
 #endif
 
-namespace detail::inline INSONIFY_ONCE {
+inline namespace INSONIFY_ONCE {
 
-INSONIFY_FUNCTION std::optional<regular_grid> find_regular_grid(const mesh_view& m, executor_ref ex, double off);
+/// The regular grid of a mesh's vertices; none if they are not on one, or a height is not finite.
+/// @param off  distance from the lattice up to which vertices are accepted, in steps; `regular_grid::off` of the result
+///             bounds the actual distance
+INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m, double off = 1.0 / 256);
 
 #if INSONIFY_BODIES
-INSONIFY_FUNCTION std::optional<regular_grid> find_regular_grid(const mesh_view& m, executor_ref ex, double off) {
+INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m, double off) {
     if (m.triangles.size() < 2) return std::nullopt;
     const glm::uvec3 cell[2] = {m.triangles[0], m.triangles[1]};
-    const auto cut = cell_cut::of(cell);
+    const auto cut = detail::cell_cut::of(cell);
     if (!cut) return std::nullopt;
     const std::size_t columns = cut->columns, rows = m.positions.size() / columns;
     if (rows < 2 || columns > 1 << 20 || rows > 1 << 20 || rows * columns != m.positions.size() ||
@@ -143,46 +143,37 @@ INSONIFY_FUNCTION std::optional<regular_grid> find_regular_grid(const mesh_view&
     const double step = numeric::abs(area) / numeric::square_root((std::max)(square(right), square(up)));
     const double farthest_accepted = square({step * off, 0});
 
-    std::atomic<bool> differs = false;
-    constexpr std::size_t grain = 16;
-    dynamic_array<double> farthest((rows + grain - 1) / grain, 0);  // squared, of the vertices of some rows
-    bulk_ranges(ex, rows, grain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t j = first; j < last && !differs; ++j) {
-            const glm::dvec2 start = origin + static_cast<double>(j) * up;
-            for (std::size_t i = 0; i < columns; ++i) {
-                const std::size_t vertex = j * columns + i;
-                const double squared = square(place(vertex) - (start + static_cast<double>(i) * right));
-                farthest[j / grain] = (std::max)(farthest[j / grain], squared);
-                // Written so that NaN doesn't pass.
-                if (!(squared <= farthest_accepted && numeric::is_finite(m.positions[vertex].z))) differs = true;
-            }
-            if (j + 1 == rows) continue;
-            const auto corner = static_cast<std::uint32_t>(j * columns);
-            std::uint32_t vertices[cell_row_kernel::indices];
-            for (int i = 0; i < cell_row_kernel::indices; ++i) vertices[i] = cell[i / 3][i % 3] + corner;
-            dispatch(cell_row_kernel{&m.triangles[j * 2 * (columns - 1)], columns - 1, vertices, differs}, best_isa());
+    double farthest = 0;  // squared
+    for (std::size_t j = 0; j < rows; ++j) {
+        const glm::dvec2 start = origin + static_cast<double>(j) * up;
+        for (std::size_t i = 0; i < columns; ++i) {
+            const std::size_t vertex = j * columns + i;
+            const double squared = square(place(vertex) - (start + static_cast<double>(i) * right));
+            farthest = (std::max)(farthest, squared);
+            // Written so that NaN doesn't pass.
+            if (!(squared <= farthest_accepted && numeric::is_finite(m.positions[vertex].z))) return std::nullopt;
         }
-    });
-    if (differs) return std::nullopt;
-    const double farthest_off = numeric::square_root(*std::max_element(farthest.begin(), farthest.end())) / step;
-    return regular_grid{
-        static_cast<int>(columns), static_cast<int>(rows), origin, right, up, cut->is_rising, farthest_off};
+        if (j + 1 == rows) break;
+        constexpr int indices = detail::cell_row_kernel::indices;
+        const auto corner = static_cast<std::uint32_t>(j * columns);
+        std::uint32_t vertices[static_cast<unsigned>(indices)];
+        for (int i = 0; i < indices; ++i) vertices[i] = cell[i / 3][i % 3] + corner;
+        bool differs = false;
+        dispatch(detail::cell_row_kernel{&m.triangles[j * 2 * (columns - 1)], columns - 1, vertices, differs},
+                 best_isa());
+        if (differs) return std::nullopt;
+    }
+    return regular_grid{static_cast<int>(columns),
+                        static_cast<int>(rows),
+                        origin,
+                        right,
+                        up,
+                        cut->is_rising,
+                        numeric::square_root(farthest) / step};
 }
 #endif
 
-}  // namespace detail::inline INSONIFY_ONCE
-
-inline namespace INSONIFY_FLAGS {
-
-/// The regular grid of a mesh's vertices; none if they are not on one, or a height is not finite.
-/// @param off  distance from the lattice up to which vertices are accepted, in steps; `regular_grid::off` of the result
-///             bounds the actual distance
-template <executor_argument E = serial_executor>
-std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, double off = 1.0 / 256) {
-    return detail::find_regular_grid(m, ex, off);
-}
-
-}  // namespace INSONIFY_FLAGS
+}  // namespace INSONIFY_ONCE
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -62,15 +62,13 @@ INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m) {
     facts.shape = std::move(m);
     validate(facts.shape);
     facts.box = bounds(facts.shape);
-    facts.grid = regular_grid_of(facts.shape, serial_executor{}, mesh_facts::grid_error);
+    if (!facts.shape.normals.empty()) wind_by_normals(facts.shape);  // first: triangles of a grid are counter-clockwise
+    facts.grid = regular_grid_of(facts.shape, mesh_facts::grid_error);
     if (!facts.grid && order_by_lattice(facts.shape))
-        facts.grid = regular_grid_of(facts.shape, serial_executor{}, mesh_facts::grid_error);
+        facts.grid = regular_grid_of(facts.shape, mesh_facts::grid_error);
     else if (!facts.grid && is_incoherent(facts.shape))
         order_along_curve(facts.shape, facts.box);
-    if (facts.shape.normals.empty())
-        facts.shape.normals = smooth_normals(facts.shape);
-    else
-        wind_by_normals(facts.shape);
+    if (facts.shape.normals.empty()) facts.shape.normals = smooth_normals(facts.shape);
     facts.kind = kind_of(facts.shape);
     // Where else renderers would have to find out what lies below a position.
     if (facts.kind == surface_kind::heightfield && !facts.grid && !fills_box(facts.shape, facts.box))
@@ -130,7 +128,8 @@ class shared_mesh {
     const bounding_box& box() const { return facts_->box; }
     /// Heightfields whose outline is neither their grid's nor that of the box count as open.
     surface_kind kind() const { return facts_->kind; }
-    /// The grid of a heightfield whose vertices lie on one, within `grid_error` steps; null otherwise.
+    /// The grid of a heightfield whose vertices lie on one, within `grid_error` steps; null otherwise. Turn a mesh by
+    /// its pose: turned vertices are rounded, which leaves the outline concave, and then there is no grid.
     const regular_grid* grid() const { return facts_->grid ? &*facts_->grid : nullptr; }
     static constexpr double grid_error = detail::mesh_facts::grid_error;
 

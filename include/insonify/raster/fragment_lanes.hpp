@@ -1,4 +1,22 @@
 // The input of fragment shaders over SIMD lanes: N adjacent pixels of a row.
+//
+//     struct surface { float height, brightness; };  // the varyings of the vertex shader
+//
+//     struct shade_surface {
+//         image<float>& picture;
+//         template <int N>  // 1 and more, as the instruction set has
+//         INSONIFY_INLINE void operator()(const fragment_lanes<N, surface>& f) const {
+//             typename fragment_lanes<N, surface>::floats height, brightness;
+//             f.interpolate(height, 0);
+//             f.interpolate(brightness, 1);
+//             f.store(picture, height < 1.0f ? brightness : 0.5f * brightness);
+//         }
+//     };
+//
+//     draw(mesh, vertex_shader, shade_surface{picture}, framebuffer<void>{depth});
+//
+// INSONIFY_INLINE compiles the shader for each instruction set. To read a single lane, copy all of them to an array:
+// `float heights[N]; std::memcpy(heights, &height, sizeof height);`.
 #pragma once
 
 #include <insonify/core/simd/lanes.hpp>

@@ -7,6 +7,7 @@
 // Marine Pollution Bulletin 62, 2011).
 #pragma once
 
+#include <insonify/core/numeric.hpp>
 #include <insonify/seabed/area.hpp>
 
 #include <algorithm>
@@ -82,7 +83,7 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
     if (m.tail > 0) {
         // A ridge behind the moat, as wide as the outline is across the current.
         const double length = static_cast<double>(m.tail), along = (at.x - lee_end - 0.5 * width) / length;
-        const double half = 0.5 * (right - left), side = std::abs(at.y - 0.5 * (left + right));
+        const double half = 0.5 * (right - left), side = numeric::abs(at.y - 0.5 * (left + right));
         if (along > 0 && along < 1)
             change += static_cast<double>(m.mound) * 6.75 * along * (1 - along) * (1 - along) *
                       biweight(side / (half + 0.5 * width));

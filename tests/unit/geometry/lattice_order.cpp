@@ -70,6 +70,22 @@ TEST_CASE("A lattice in any order is put in the order of its rows") {
         }
 }
 
+TEST_CASE("A clockwise lattice with normals that point up is a grid, in any order") {
+    const in::mesh whole = lattice(13, 21, true);
+    in::mesh clockwise = whole;
+    clockwise.normals.assign(whole.positions.size(), glm::vec3(0, 0, 1));
+    for (glm::uvec3& t : clockwise.triangles) std::swap(t.y, t.z);
+    in::mesh out_of_order = shuffled(clockwise, 5);
+    out_of_order.normals = clockwise.normals;
+    for (const in::mesh& m : {clockwise, out_of_order}) {
+        const in::shared_mesh found(m);
+        CHECK(found.kind() == in::surface_kind::heightfield);
+        REQUIRE(found.grid() != nullptr);
+        CHECK(found.grid()->columns == 13);
+        CHECK(found->triangles == whole.triangles);
+    }
+}
+
 TEST_CASE("A lattice may be turned and sheared") {
     const in::mesh whole = lattice(23, 31, false, {0.37, 0.02}, {-0.05, 0.41});
     in::mesh m = shuffled(whole, 9);

@@ -115,6 +115,12 @@ TEST_CASE("A truncated cone is solid, has its stated size, and is a frustum with
     check_solid(plain);
     CHECK(volume_of(plain) == Approx(pi / 12 * (4 + 2 + 1) * 1.5).epsilon(1e-4));
     CHECK(in::segments_for(in::truncated_cone{}, 0.001f) == in::segments_for(0.49f, 0.001f));
+    // The counts of the documentation.
+    const auto triangles = [](const in::truncated_cone& c) { return to_mesh(c).triangles.size(); };
+    CHECK(triangles({.lugs = 0, .segments = 50}) == 16 * 50);
+    CHECK(triangles({.shoulder = 0, .lugs = 0, .segments = 50}) == 8 * 50);
+    CHECK(triangles({.boss_height = 0, .lugs = 0, .segments = 50}) == 12 * 50);
+    CHECK(triangles({.lugs = 3, .segments = 50}) == 16 * 50 + 3 * 44);
     CHECK_THROWS_WITH(to_mesh(in::truncated_cone{.diameter = 0}), ContainsSubstring("truncated_cone.diameter is 0"));
     CHECK_THROWS_WITH(to_mesh(in::truncated_cone{.top_diameter = 2}),
                       ContainsSubstring("truncated_cone.top_diameter is 2"));
@@ -463,6 +469,16 @@ TEST_CASE("An aeroplane is solid, with its stated length and span") {
     const double cylinder = 14.4 * pi / 4 * 1.7 * 1.7;
     CHECK(volume_of(fuselage) > 0.4 * cylinder);
     CHECK(volume_of(fuselage) < cylinder);
+}
+
+TEST_CASE("An aeroplane of any span has a tailplane that reaches out of its fuselage by default") {
+    for (const float span : {3.6f, 4.0f, 5.5f, 14.4f, 57.6f}) {
+        const in::aeroplane a{.span = span};
+        CAPTURE(span);
+        CHECK(a.tail_span == (std::max)(0.37f * span, 1.2f * a.fuselage_diameter));
+        CHECK_NOTHROW(validate(a));
+    }
+    check_solid(to_mesh(in::aeroplane{.span = 3.6f}));
 }
 
 TEST_CASE("An aeroplane stays solid without its wings and tail") {

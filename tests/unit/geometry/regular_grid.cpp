@@ -1,5 +1,4 @@
 // Recognition of heightfields over a regular grid: their size, steps and diagonals.
-#include <insonify/core/thread_pool.hpp>
 #include <insonify/geometry/regular_grid.hpp>
 
 #include <cmath>
@@ -49,8 +48,6 @@ TEST_CASE("A regular grid is recognized by its size, its steps and the diagonals
                 CHECK(grid->up.x == Approx(-0.1));
                 CHECK(grid->up.y == Approx(sinks ? -0.4 : 0.4));
             }
-    in::thread_pool pool(2);
-    CHECK(in::regular_grid_of(grid_of(100, 200), pool));
 }
 
 TEST_CASE("Meshes that are no regular grid are not taken for one") {

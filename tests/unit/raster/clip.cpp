@@ -14,7 +14,7 @@ namespace {
 
 using in::detail::clip_polygon;
 
-const in::detail::projection to_small_screen(in::detail::pixel_grid{8, 64, 64}, in::keep_depth::smaller);
+const in::detail::projection to_small_screen(in::detail::pixel_grid{8, 64, 64}, in::keep_depth::smaller, true);
 
 glm::dvec4 any_position(in::random_sequence& random) {
     const auto at = [&] { return random.uniform(-3, 3); };
@@ -134,7 +134,7 @@ TEST_CASE("Corners are rounded to nearest up to 2^27 sub-pixels, and beyond to t
     __extension__ using wide = __int128;
     in::random_sequence random(4);
     for (const int width : {64, 2047, 4194303}) {
-        const in::detail::projection exact(in::detail::pixel_grid{8, width, 64}, in::keep_depth::smaller);
+        const in::detail::projection exact(in::detail::pixel_grid{8, width, 64}, in::keep_depth::smaller, true);
         int near_ties = 0;
         for (int n = 0; n < 200000; ++n) {
             // x / w in sub-pixels, as close to a tie between two of them as such floats come: the closest of several

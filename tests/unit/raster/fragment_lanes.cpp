@@ -4,7 +4,11 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "../../catch.hpp"
 #include "pixel_space.hpp"
@@ -123,8 +127,9 @@ namespace {
 /// The largest difference between the varyings of a shader over lanes and those of a fragment shader, for one triangle
 /// in pixel coordinates, whose corners' clip coordinates are multiplied by `scale`. Infinite where the former are NaN.
 template <in::depth_precision Depth>
-double worst_of_lanes(const glm::vec3 (&corners)[3], float scale) {
-    const in::mesh m{{std::begin(corners), std::end(corners)}, {}, {{0, 1, 2}}};
+double worst_of_lanes(const glm::vec3 (&corners)[3], float scale, unsigned fewest_pixels = 100) {
+    // As often as there are lanes, so that small triangles are assembled together.
+    const in::mesh m{{std::begin(corners), std::end(corners)}, {}, std::vector<glm::uvec3>(16, {0, 1, 2})};
     const auto scaled = [&](const in::vertex& v) {
         return in::placed_vertex<varyings>{
             testing_raster::pixel_space{256, 256}(v)*scale,
@@ -149,7 +154,7 @@ double worst_of_lanes(const glm::vec3 (&corners)[3], float scale) {
             }
         }
     };
-    CHECK(in::draw(m, scaled, compare, in::framebuffer<void>{depth}, options).pixels > 100);
+    CHECK(in::draw(m, scaled, compare, in::framebuffer<void>{depth}, options).pixels >= fewest_pixels);
     return worst;
 }
 }  // namespace
@@ -172,6 +177,21 @@ TEST_CASE("Varyings over lanes stay precise on slivers of any length") {
             CHECK(worst_of_lanes<in::depth_precision::exact>(sliver, 1) < 5e-4);
             CHECK(worst_of_lanes<in::depth_precision::quick>(sliver, 1) < 5e-4);
         }
+    const auto at = [](int x, int y) {  // sub-pixels from the centre of pixel (128, 128)
+        return glm::vec3(128.5f + static_cast<float>(x) / 256, 128.5f + static_cast<float>(y) / 256, 0.5f);
+    };
+    // Needles 4 to 96 pixels long, with the least area that has a pixel's centre inside: four squared sub-pixels, twice
+    // the area, of which the corners get one, two and one. Neighbouring Fibonacci numbers make the determinants.
+    for (int a = 610, b = 377; a < 20000; std::tie(a, b) = std::pair(a + b, a)) {
+        const int c = a - b, d = b - c, e = c - d;
+        const glm::vec3 needle[] = {at(a, b), at(-c, -d), at(-d, -e)};
+        CAPTURE(a);
+        CHECK(worst_of_lanes<in::depth_precision::exact>(needle, 1, 1) < 1e-6);
+        CHECK(worst_of_lanes<in::depth_precision::quick>(needle, 1, 1) < 1e-6);
+    }
+    // A steeper one.
+    const glm::vec3 needle[] = {at(14971, -11267), at(-2801, 2108), at(-9369, 7051)};
+    CHECK(worst_of_lanes<in::depth_precision::exact>(needle, 1, 1) < 1e-6);
 }
 
 TEST_CASE("A shader over lanes gives the same bytes for any instruction set, tile size and thread count") {
@@ -185,6 +205,51 @@ TEST_CASE("A shader over lanes gives the same bytes for any instruction set, til
     const pictures quick = drawn<in::depth_precision::quick>(m, in::isa::scalar, 64, in::serial_executor{});
     CHECK(same(quick, drawn<in::depth_precision::quick>(m, in::best_isa(), 16, pool)));
     CHECK(!(quick.depth == exact.depth));
+}
+
+namespace {
+// As at the top of fragment_lanes.hpp.
+struct surface {
+    float height, brightness;
+};
+struct shade_surface {
+    in::image<float>& picture;
+    template <int N>
+    INSONIFY_INLINE void operator()(const in::fragment_lanes<N, surface>& f) const {
+        typename in::fragment_lanes<N, surface>::floats height, brightness;
+        f.interpolate(height, 0);
+        f.interpolate(brightness, 1);
+        f.store(picture, height < 1.0f ? brightness : 0.5f * brightness);
+        float heights[static_cast<unsigned>(N)];
+        std::memcpy(heights, &height, sizeof height);
+        for (int k = 0; k < N; ++k)
+            if (heights[k] >= 3) ++picture(149, 109);  // never
+    }
+};
+}  // namespace
+
+TEST_CASE("The shader at the top of fragment_lanes.hpp shades like one for single pixels") {
+    const auto place = [](const in::vertex& v) {
+        const glm::vec3& p = v.position;
+        return in::placed_vertex<surface>{seen_from_above(v).clip, {p.z, 0.5f + 0.1f * p.x}};
+    };
+    const in::draw_options<> options{.keep = in::keep_depth::larger, .load = in::depth_load::clear};
+    in::image<float> depth(150, 110), picture(150, 110), expected(150, 110);
+    in::draw(rubble(), place, shade_surface{picture}, in::framebuffer<void>{depth}, options);
+    in::draw(
+        rubble(), place,
+        [&](const in::fragment<surface>& f) {
+            const auto& [height, brightness] = f.varyings;
+            expected(f.x, f.y) = height < 1.0f ? brightness : 0.5f * brightness;
+        },
+        in::framebuffer<void>{depth}, options);
+    int different = 0, shaded = 0;
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        shaded += expected.pixels()[i] > 0;
+        different += std::abs(picture.pixels()[i] - expected.pixels()[i]) > 1e-4f;
+    }
+    CHECK(shaded > 8000);
+    CHECK(different < 3);  // at heights of 1, to float precision
 }
 
 TEST_CASE("Varyings over lanes may be empty") {

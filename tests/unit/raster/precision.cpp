@@ -152,6 +152,49 @@ TEST_CASE("Ten million depths are the nearest floats", "[.slow]") {
     check_precision(2, 3000, true);
 }
 
+TEST_CASE("Quick depth is off by at most 2^-22 of the largest depth and 2^-7 of the triangle's range of depths") {
+    constexpr int side = 256;  // a power of two, as 2^-8 pixels are: vertices are exact
+    in::random_sequence random(6);
+    in::image<float> exact(side, side), quick(side, side);
+    double worst = 0, worst_of_range = 0;  // in units of 2^-24, and beyond 2^-22 of the largest depth
+    bool is_bounded = true;
+    for (int n = 0; n < 12000; ++n) {
+        const double length = random.uniform(16, 62), thickness = length / in::numeric::pow(4096, random.uniform()),
+                     turn = random.uniform(0, 2 * in::numeric::pi), range = in::numeric::pow(10, random.uniform(-5, 0));
+        const auto corner = [&](double along) {
+            const double across = thickness * random.uniform(-1, 1), c = std::cos(turn), s = std::sin(turn);
+            const auto snapped = [](double pixels) { return std::round(256 * pixels) / 256; };
+            return glm::vec3(snapped(128 + along * c - across * s), snapped(128 + along * s + across * c),
+                             1 - range * random.uniform());
+        };
+        const glm::vec3 a = corner(-length), b = corner(length), c = corner(length * random.uniform(-1, 1));
+        const in::mesh m{{a, b, c}, {}, std::vector<glm::uvec3>(n % 2 == 0 ? 1 : 16, {0, 1, 2})};
+        const pixel_space place{side, side};
+        in::draw(m, place, in::depth_target{exact}, {.load = in::depth_load::clear});
+        in::draw(m, place, in::depth_target{quick},
+                 in::draw_options<in::depth_precision::quick>{.load = in::depth_load::clear});
+
+        const auto [lowest, highest] = std::minmax({a.z, b.z, c.z});
+        const auto [west, east] = std::minmax({a.x, b.x, c.x});
+        const auto [north, south] = std::minmax({a.y, b.y, c.y});
+        const double depths = static_cast<double>(highest - lowest), largest = static_cast<double>(highest);
+        const double box = static_cast<double>(east - west) * static_cast<double>(south - north);
+        const double twice = std::abs(static_cast<double>((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)));
+        for (std::size_t i = 0; i < exact.size(); ++i) {
+            if (exact.pixels()[i] > 1) continue;  // not covered
+            const double off =
+                std::abs(static_cast<double>(exact.pixels()[i]) - static_cast<double>(quick.pixels()[i]));
+            worst = (std::max)(worst, off * 0x1p24);
+            worst_of_range = (std::max)(worst_of_range, (off - 0x1p-22 * largest) / depths);
+            is_bounded = is_bounded && off <= 0x1p-22 * largest + depths * (std::min)(0x1p-7, 0x1p-19 * box / twice);
+        }
+    }
+    CAPTURE(worst, worst_of_range);
+    CHECK(is_bounded);
+    CHECK(worst > 100);            // more than a few units in the last place
+    CHECK(worst_of_range < 3e-4);  // measured: 2^-12
+}
+
 TEST_CASE("The nearer of two surfaces is visible wherever their depths differ as floats") {
     in::random_sequence random(3);
     in::image<float> depth(picture_side, picture_side);

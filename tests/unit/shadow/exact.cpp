@@ -255,7 +255,7 @@ TEST_CASE("A heightfield on a grid agrees with rays, for its own points and for 
                     azimuth += 49;  // covers all octants
                     const shadow::directional_light light = parallel(azimuth, elevation);
                     const lit::mesh bottom(seabed_of(recipe, 41, falls), light);
-                    const auto grid = in::regular_grid_of(*bottom, serial, in::shared_mesh::grid_error);
+                    const auto grid = in::regular_grid_of(*bottom, in::shared_mesh::grid_error);
                     REQUIRE(grid);
                     shadow::caster swept = lit::caster_of(*bottom);
                     swept.may_skip = shadow::skip::facing_its_own;

@@ -21,7 +21,7 @@ class swept_seabed {
     swept_seabed(const in::seabed::any& recipe, int side, const shadow::directional_light& light)
         : surface(in::seabed::tessellate(in::seabed::sample(recipe, {{-1.5, -1.5}, 3.0 / (side - 1), side, side})),
                   light),
-          grid_(in::regular_grid_of(*surface, serial_, in::shared_mesh::grid_error)) {
+          grid_(in::regular_grid_of(*surface, in::shared_mesh::grid_error)) {
         REQUIRE(grid_);
         caster_ = lit::caster_of(*surface);
         caster_.may_skip = shadow::skip::facing_its_own;
@@ -32,7 +32,6 @@ class swept_seabed {
     const lit::mesh surface;
 
   private:
-    in::serial_executor serial_;
     std::optional<in::regular_grid> grid_;
     shadow::caster caster_;
 };
@@ -169,7 +168,7 @@ TEST_CASE("Points close to the edges of cells agree with rays where vertices lie
                 ground.triangles.push_back({a, b, c});
                 ground.triangles.push_back({a, c, d});
             }
-        const auto grid = in::regular_grid_of(ground, serial, in::shared_mesh::grid_error);
+        const auto grid = in::regular_grid_of(ground, in::shared_mesh::grid_error);
         if (!grid) continue;
         // Along an axis or a diagonal, so that rays follow the edges of cells.
         const auto light = parallel(45.0 * random.below(8) + between(-1e-3, 1e-3), between(3, 80));

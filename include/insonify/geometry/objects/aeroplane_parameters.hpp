@@ -3,6 +3,7 @@
 
 #include <insonify/geometry/objects/detail/solids.hpp>
 
+#include <algorithm>
 #include <cstdint>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -26,18 +27,20 @@ struct aeroplane {
     float sweep = 0.08f;                              ///< of the leading edge, radians, -0.5 to 0.8
     float dihedral = 0.08f;                           ///< radians, -0.2 to 0.3
     float wing_position = 0.2f;  ///< of the root's leading edge ahead of the middle, share of the length, -0.1 to 0.4
-    float tail_span = span * 0.37f;                    ///< of the tailplane, metres, at most the span
-    float fin_height = length * 2.1f / 14.4f;          ///< above the fuselage, metres, at most length / 3
+    /// Of the tailplane, metres, 1.2 fuselage_diameter to the span.
+    float tail_span = (std::max)(span * 0.37f, 1.2f * fuselage_diameter);
+    float fin_height = length * 2.1f / 14.4f;          ///< above the fuselage, metres, length / 50 to length / 3
     int engines = 2;                                   ///< 0 to 4; odd ones sit in the nose, the others in the wings
-    float propeller_diameter = length * 3.4f / 14.4f;  ///< metres, at most the length; 0: without propellers
+    float propeller_diameter = length * 3.4f / 14.4f;  ///< metres, length / 50 to length; 0: without propellers
 
     float port_wing = 1;       ///< share of the half span that is left, 0 to 1
     float starboard_wing = 1;  ///< the same of the other
-    float torn_off = 0;     ///< metres to the lost parts of the wings, which lie on the bottom; 0: they are not there
-    float tail_gap = 0;     ///< metres between the fuselage and a tail that broke off; 0: whole
-    float tail_yaw = 0.5f;  ///< radians that such a tail is turned by, -1.6 to 1.6
+    /// Metres to the lost parts of the wings, which lie on the bottom, at most 10 lengths; 0: they are not there.
+    float torn_off = 0;
+    float tail_gap = 0;        ///< metres between the fuselage and a tail that broke off, at most 10 lengths; 0: whole
+    float tail_yaw = 0.5f;     ///< radians that such a tail is turned by, -1.6 to 1.6
     bool is_inverted = false;  ///< lies on its back, on a fin that is crushed to a third
-    int segments = 24;         ///< around the fuselage, 8 to 512; as many along it and along a wing
+    int segments = 24;         ///< around the fuselage, 8 to 512; twice as many along it and along a wing
     std::uint64_t seed = 1;    ///< of torn edges
 };
 

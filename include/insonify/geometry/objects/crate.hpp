@@ -17,7 +17,7 @@ inline namespace INSONIFY_ABI {
 /// The default footprint is the pallet of 1.2 m by 0.8 m (ISO 6780, EN 13698-1) that transport cases are sized for.
 struct crate {
     glm::vec3 size{1.2f, 0.8f, 0.8f};  ///< metres; the largest at most 50 times the least
-    float board = 0.025f;              ///< thickness, metres, at most a tenth of the least size
+    float board = 0.025f;              ///< thickness, metres, 1/1000 of the largest to 1/10 of the least size
     int boards = 5;                    ///< one above another on each side, 1 to 64
     float gap = 0.1f;                  ///< share of a board's width that is open between two, 0.01 to 0.9
     bool is_open = false;              ///< the lid is missing

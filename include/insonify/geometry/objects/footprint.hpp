@@ -21,7 +21,7 @@ inline namespace INSONIFY_ABI {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The convex hull, counter-clockwise and without corners on straight edges, of the finite positions that are less than
+/// The convex hull, counter-clockwise and without corners on straight edges, of the finite positions that are at most
 /// `height` above the lowest one, seen from above. Fewer than three corners if those lie on a line.
 /// @param height  metres, >= 0: masts and wings that stick out higher do not count
 /// @throws invalid_input for a pose that `to_world` refuses, or a height that is negative or NaN

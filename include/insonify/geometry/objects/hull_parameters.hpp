@@ -38,9 +38,9 @@ struct hull {
     bool has_funnel = true;
     int hatches = 2;                 ///< open, 0 to 8
     int masts = 2;                   ///< 0 to 4, with two derricks each
-    float mast_height = length / 5;  ///< above the deck, metres, at most the length
+    float mast_height = length / 5;  ///< above the deck, metres, length / 1000 to length
 
-    float break_gap = 0;          ///< metres between the two halves of a broken ship; 0: in one piece
+    float break_gap = 0;  ///< metres between the two halves of a broken ship, at most the length; 0: in one piece
     float break_position = 0.1f;  ///< from midships, share of the length, -0.4 to 0.4
     float break_yaw = 0.3f;       ///< radians that the bow half is turned by, -1.6 to 1.6
     float break_roll = -0.25f;    ///< radians that the bow half is rolled by, -1.6 to 1.6

@@ -22,8 +22,9 @@ inline namespace INSONIFY_ABI {
 struct open_pipe {
     float diameter = 0.71f;  ///< outside, metres
     float length = 12;       ///< from end to end, metres
-    float wall = 0.065f;     ///< thickness, metres, below half the diameter
-    float flange = 0;        ///< metres by which a flange at either end stands out; 0: none
+    float wall = 0.065f;     ///< thickness, metres, 1/10000 of the larger size to below half the diameter
+    /// Metres by which a flange at either end stands out, 1/10000 of the larger size to the diameter; 0: none.
+    float flange = 0;
     float broken = 0;        ///< metres by which the +x end is ragged, at most half the length; 0: cut square
     int segments = 48;       ///< around the axis, 6 to 8192; see `segments_for`
     std::uint64_t seed = 1;  ///< of the ragged end

@@ -20,9 +20,10 @@ inline namespace INSONIFY_ABI {
 /// of volume pi / 12 (D^2 + D d + d^2) h.
 struct truncated_cone {
     float diameter = 0.98f;      ///< of the base, metres
-    float top_diameter = 0.52f;  ///< metres
-    float height = 0.47f;        ///< with the boss, metres
-    float shoulder = 0.05f;  ///< metres that the edge of the top is rounded by, at most a fifth of the height; 0: sharp
+    float top_diameter = 0.52f;  ///< metres, diameter / 10000 to diameter
+    float height = 0.47f;        ///< with the boss, metres, at least diameter / 10000
+    /// Metres that the edge of the top is rounded by, at most a fifth of height and of top_diameter; 0: sharp.
+    float shoulder = 0.05f;
     float boss_diameter = 0.22f;  ///< metres, at most 0.8 of the top; 0: none
     float boss_height = 0.04f;    ///< metres, at most a quarter of the height; 0: none
     int lugs = 2;                 ///< 0 to 8
@@ -47,7 +48,7 @@ inline void validate(const truncated_cone& c) {
     detail::require_segments("truncated_cone.segments", c.segments, 6, 8192);
 }
 
-/// Some 14 segments triangles, and 64 for each lug.
+/// 16 segments triangles, 8 segments with a sharp shoulder, 4 segments fewer without a boss; and 44 for each lug.
 /// @throws invalid_input as `validate` does
 inline mesh to_mesh(const truncated_cone& c) {
     validate(c);

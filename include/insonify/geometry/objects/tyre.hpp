@@ -55,7 +55,7 @@ inline mesh to_mesh(const tyre& t) {
             auto [sine, cosine] = numeric::sin_cos_turns(turns);
             if (i == 0 || i == steps) cosine = 0;
             const double out = cosine > 0 ? numeric::pow(cosine, 2 / 3.2) : 0.0;
-            const double up = numeric::pow(std::abs(sine), 2 / 3.2);
+            const double up = numeric::pow(numeric::abs(sine), 2 / 3.2);
             outline.push_back({rim + radial * out, half + (sine < 0 ? -up : up) * axial, 1, 0});
         }
     };

@@ -4,6 +4,7 @@
 #include <insonify/geometry/creases.hpp>
 #include <insonify/geometry/objects/detail/solids.hpp>
 
+#include <array>
 #include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -18,12 +19,12 @@ inline namespace INSONIFY_ABI {
 /// Underwater Warfare Systems); the slopes are estimates from photographs.
 struct wedge {
     float length = 1.02f;       ///< metres
-    float width = 0.8f;         ///< at the tail, metres
-    float height = 0.385f;      ///< at the ridge, metres
-    float nose_height = 0.06f;  ///< metres, below the height
-    float nose_width = 0.46f;   ///< metres, at most the width
-    float tail_height = 0.2f;   ///< metres, below the height
-    float ridge = 0.2f;         ///< metres from the tail to the ridge, below half the length
+    float width = 0.8f;         ///< at the tail, metres, at least length / 10000
+    float height = 0.385f;      ///< at the ridge, metres, at least 1/10000 of length and width
+    float nose_height = 0.06f;  ///< metres, height / 10000 to height
+    float nose_width = 0.46f;   ///< metres, width / 10000 to width
+    float tail_height = 0.2f;   ///< metres, height / 10000 to height
+    float ridge = 0.2f;         ///< metres from the tail to the ridge, 1/10000 to half of the length
     float side_slope = 0.35f;   ///< inward per upward metre of the sides, >= 0; the ridge keeps a tenth of the width
 };
 

@@ -47,7 +47,6 @@ class screen_mesh {
     screen_mesh(const mesh_view& m, const Shader& shader, const pixel_grid& grid, const tile_grid& tiles,
                 const draw_options<Depth>& options, bool has_weights, Record* records, E& ex)
         : mesh_(m),
-          indices_(m.triangles.data()),
           compact_count_(static_cast<std::uint32_t>(m.triangles.size())),
           grid_(grid),
           projection_(grid, options.keep, std::is_same_v<Real, double>),
@@ -106,30 +105,20 @@ class screen_mesh {
     std::uint32_t compact_count() const { return compact_count_; }
     /// The index in the mesh of a triangle.
     std::uint32_t triangle(std::uint32_t id) const { return is_compact(id) ? id : wide_[id - compact_count_].triangle; }
-    const glm::uvec3& indices(std::uint32_t triangle) const { return indices_[triangle]; }
+    const glm::uvec3& indices(std::uint32_t triangle) const { return mesh_.triangles[triangle]; }
     const screen_vertices<Real>& vertices() const { return vertices_; }
 
     /// Vertex i of a compact triangle, in the mesh's order.
     INSONIFY_INLINE const packed_vertex<Real>& vertex(std::size_t triangle, int i) const {
-        return vertices_.packed[indices_[triangle][i]];
+        return vertices_.packed[mesh_.triangles[triangle][i]];
     }
 
   private:
     template <class Screen, class Shader>
     friend struct assembly_kernel;
 
-    /// The counters of draw_stats.
-    enum class outcome { drawn, culled, missed, degenerate, not_finite };
-
-    static void count(draw_stats& stats, outcome o) {
-        switch (o) {
-            case outcome::drawn: ++stats.drawn; break;
-            case outcome::culled: ++stats.culled; break;
-            case outcome::missed: break;  // the remainder
-            case outcome::degenerate: ++stats.degenerate; break;
-            case outcome::not_finite: ++stats.not_finite; break;
-        }
-    }
+    /// The counter that a triangle belongs to.
+    using outcome = std::uint64_t draw_stats::*;
 
     bool is_culled(bool front) const {
         return (cull_ == cull_mode::back && !front) || (cull_ == cull_mode::front && front);
@@ -144,16 +133,16 @@ class screen_mesh {
         const glm::uvec3& index = mesh_.triangles[triangle];
         const screen_vertex a = vertices_[index.x], b = vertices_[index.y], c = vertices_[index.z];
         const rect pixels = centre_rect(a, b, c, grid_);
-        if (is_outside(pixels, grid_)) return outcome::missed;
+        if (is_outside(pixels, grid_)) return &draw_stats::missed;
         const std::int64_t area = compact_area(a, b, c);
-        if (area == 0) return outcome::degenerate;
-        if (is_culled(area < 0)) return outcome::culled;
-        if (pixels.empty()) return outcome::missed;
+        if (area == 0) return &draw_stats::degenerate;
+        if (is_culled(area < 0)) return &draw_stats::culled;
+        if (pixels.empty()) return &draw_stats::missed;
         const std::int64_t width = (std::max)({a.x, b.x, c.x}) - (std::min)({a.x, b.x, c.x});
         const std::int64_t height = (std::max)({a.y, b.y, c.y}) - (std::min)({a.y, b.y, c.y});
         if (is_sliver(width, height, area)) return assemble_wide(shader, id, tiles, out);
         out.runs.add(id, 1, tiles.touched(pixels), is_small(width, height));
-        return outcome::drawn;
+        return &draw_stats::drawn;
     }
 
     /// The same for a triangle that may have to be clipped, or that takes 128 bits.
@@ -165,18 +154,18 @@ class screen_mesh {
             const glm::dvec4 p(position_of(shader(mesh_vertex(mesh_, mesh_.triangles[triangle][i]))));
             if (!(numeric::is_finite(p.x) && numeric::is_finite(p.y) && numeric::is_finite(p.z) &&
                   numeric::is_finite(p.w)))
-                return outcome::not_finite;
+                return &draw_stats::not_finite;
             clip[static_cast<std::size_t>(i)] = p;
         }
         const clip_polygon polygon = projection_.clip(clip);
         if (polygon.was_cut) ++out.stats.clipped;
-        if (polygon.count < 3) return outcome::missed;
+        if (polygon.count < 3) return &draw_stats::missed;
 
         const screen_polygon on_screen(polygon, projection_);
-        if (is_outside(on_screen.pixels(grid_), grid_)) return outcome::missed;
-        if (on_screen.area_sign() == 0) return outcome::degenerate;
-        if (is_culled(on_screen.area_sign() < 0)) return outcome::culled;
-        outcome result = outcome::missed;
+        if (is_outside(on_screen.pixels(grid_), grid_)) return &draw_stats::missed;
+        if (on_screen.area_sign() == 0) return &draw_stats::degenerate;
+        if (is_culled(on_screen.area_sign() < 0)) return &draw_stats::culled;
+        outcome result = &draw_stats::missed;
         on_screen.for_each_part(grid_, [&](std::array<int, 3> corners, const rect& pixels, bool is_span) {
             wide_triangle part{};
             for (std::size_t k = 0; k < 3; ++k) {
@@ -187,13 +176,12 @@ class screen_mesh {
             if (is_span) part.span = pixels;
             out.runs.add(compact_count_ + static_cast<std::uint32_t>(out.wide.size()), 1, tiles.touched(pixels), false);
             out.wide.push_back(part);
-            result = outcome::drawn;
+            result = &draw_stats::drawn;
         });
         return result;
     }
 
     mesh_view mesh_;
-    const glm::uvec3* indices_;
     std::uint32_t compact_count_;  ///< ids below this are indices into the mesh, the others wide triangles
     pixel_grid grid_;
     projection projection_;
@@ -226,11 +214,11 @@ struct assembly_kernel {
   private:
     /// Out of line: clipping would be compiled into each copy of the kernel.
     INSONIFY_RARE void assemble_one(std::size_t triangle) const {
-        Screen::count(out.stats, screen.assemble(shader, triangle, tiles, out));
+        ++(out.stats.*screen.assemble(shader, triangle, tiles, out));
     }
 
     /// @returns false if one of the triangles isn't small, unless all lie outside of the picture: in a close-up, most
-    ///          triangles of a surface do, and are large
+    ///          triangles of a surface do, and are large; and if one is a sliver
     template <int N>
     INSONIFY_INLINE bool assemble_small(std::size_t triangle, const drawn_area<N>& picture) const {
         using ints = lanes<std::int32_t, N>;
@@ -247,8 +235,9 @@ struct assembly_kernel {
         const unsigned outside = movemask<N>(disjoint);
         if (outside == all) return true;
         if (!t.are_small()) return false;
-        ints area, empty, culled = ints{};
+        ints area, sliver, empty, culled = ints{};
         t.area(area);
+        t.is_sliver(area, sliver);
         if (screen.cull_ == cull_mode::back) culled = ints(area > 0);
         if (screen.cull_ == cull_mode::front) culled = ints(area < 0);
         pixels.intersect(picture.pixels);
@@ -260,6 +249,7 @@ struct assembly_kernel {
                    last_tile = ints(((pixels.x1 - 1) >> size) | ((pixels.y1 - 1) >> size << 16));
         const unsigned degenerate = movemask<N>(ints(area == 0)) & ~outside, turned = movemask<N>(culled) & ~outside,
                        drawn = all & ~(movemask<N>(empty) | degenerate | turned);
+        if ((movemask<N>(sliver) & drawn) != 0) return false;
         out.stats.degenerate += static_cast<unsigned>(std::popcount(degenerate));
         out.stats.culled += static_cast<unsigned>(std::popcount(turned));
         out.stats.drawn += static_cast<unsigned>(std::popcount(drawn));

@@ -44,7 +44,7 @@ class projection {
     /// @param exact  whether to divide by w rather than multiply by 1 / w, which may be off in the last bit. Exact
     ///               positions are the nearest on the grid up to 2^27 sub-pixels from its centre, and within 2^-52 of
     ///               the distance beyond that
-    projection(const pixel_grid& grid, keep_depth keep, bool exact = true)
+    projection(const pixel_grid& grid, keep_depth keep, bool exact)
         : grid_(grid),
           half_width_(0.5 * grid.width),
           half_height_(0.5 * grid.height),

@@ -64,7 +64,7 @@ struct pixel_grid {
     std::int64_t centre(int pixel) const { return pixel * unit() + half(); }
     /// The first pixel of an axis whose centre is at a coordinate or beyond, clamped to [0, extent]. By the fill rule
     /// this is also the exclusive end of the pixels below an upper bound.
-    int first_center(std::int64_t coordinate, int extent) const {
+    int first_centre(std::int64_t coordinate, int extent) const {
         return static_cast<int>(std::clamp<std::int64_t>((coordinate + half() - 1) >> subpixel_bits, 0, extent));
     }
     /// Pixels from the image's centre to the end of coordinates of so many bits.
@@ -106,10 +106,10 @@ inline int128 wide_area(const screen_vertex& a, const screen_vertex& b, const sc
 /// The pixels of an image whose centres lie in a triangle's bounding box.
 inline rect centre_rect(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c,
                         const pixel_grid& grid) {
-    return {grid.first_center((std::min)({a.x, b.x, c.x}), grid.width),
-            grid.first_center((std::min)({a.y, b.y, c.y}), grid.height),
-            grid.first_center((std::max)({a.x, b.x, c.x}), grid.width),
-            grid.first_center((std::max)({a.y, b.y, c.y}), grid.height)};
+    return {grid.first_centre((std::min)({a.x, b.x, c.x}), grid.width),
+            grid.first_centre((std::min)({a.y, b.y, c.y}), grid.height),
+            grid.first_centre((std::max)({a.x, b.x, c.x}), grid.width),
+            grid.first_centre((std::max)({a.y, b.y, c.y}), grid.height)};
 }
 
 /// Whether the centres in a triangle's bounding box all lie beyond the same side of the image.

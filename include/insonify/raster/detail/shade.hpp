@@ -22,7 +22,6 @@ struct tile_triangles {
     const void* records;  ///< varyings of the vertices, which shading reads later; or null
     std::size_t record_size;
 
-    std::span<const triangle_run> runs() const { return bin; }
     const pixel_grid& grid() const { return screen.grid(); }
     INSONIFY_INLINE const packed_vertex<Real>& vertex(std::uint32_t id, int i) const { return screen.vertex(id, i); }
 
@@ -96,20 +95,20 @@ std::uint64_t shade(const mesh_view& m, const VertexShader& vertex_shader, const
             }
         }
     };
-    for (const triangle_run& run : triangles.runs())
+    for (const triangle_run& run : triangles.bin)
         for (std::uint32_t i = 0; i < run.count; ++i) shade_triangle(run.first + i);
     return shaded;
 }
 
 /// Pixel centres of a row on the sub-pixel grid. Unsigned, so that differences to vertices off the grid wrap around.
 template <int N>
-struct row_centers {
+struct row_centres {
     using positions = lanes<std::uint32_t, N>;
     int y, subpixel_bits;
     positions first;  ///< x of the picture's first N pixels
     positions down;   ///< y
 
-    INSONIFY_INLINE row_centers(const pixel_grid& grid, int row) : y(row), subpixel_bits(grid.subpixel_bits) {
+    INSONIFY_INLINE row_centres(const pixel_grid& grid, int row) : y(row), subpixel_bits(grid.subpixel_bits) {
         iota<std::uint32_t, N>(first);
         first = (first << subpixel_bits) + static_cast<std::uint32_t>(grid.half());
         down = positions{} + static_cast<std::uint32_t>(grid.centre(row));
@@ -151,7 +150,7 @@ struct lane_shading_kernel {
     template <int N>
     INSONIFY_INLINE int find(fragment_lanes<N, Varyings>* found, int x0, int y) const {
         using ints = lanes<std::int32_t, N>;
-        const row_centers<N> row(screen.grid(), y);
+        const row_centres<N> row(screen.grid(), y);
         const ints set = ints{} - 1;  // a comparison of single numbers is 1, not a mask
         ints column;
         iota<std::int32_t, N>(column);
@@ -174,7 +173,7 @@ struct lane_shading_kernel {
 
     /// Where some pixels are not visible, their lanes take the triangle of one that is.
     template <int N>
-    INSONIFY_INLINE void look_up_some(fragment_lanes<N, Varyings>& f, int x, const row_centers<N>& row,
+    INSONIFY_INLINE void look_up_some(fragment_lanes<N, Varyings>& f, int x, const row_centres<N>& row,
                                       const lanes<std::int32_t, N>& visible, const std::uint32_t* ids) const {
         std::uint32_t shown[static_cast<unsigned>(N)], some_id = 0;
         for (int k = 0; k < N; ++k)
@@ -187,7 +186,7 @@ struct lane_shading_kernel {
     }
 
     template <int N>
-    INSONIFY_INLINE void look_up(fragment_lanes<N, Varyings>& f, int x, const row_centers<N>& row,
+    INSONIFY_INLINE void look_up(fragment_lanes<N, Varyings>& f, int x, const row_centres<N>& row,
                                  const lanes<std::int32_t, N>& visible, bool all_visible,
                                  const std::uint32_t* ids) const {
         f.x = x;
@@ -198,21 +197,19 @@ struct lane_shading_kernel {
         f.depth_sign_ = depth_sign;
         lanes<std::uint32_t, N> id;
         load(id, ids);
-        const bool any_wide = any(ints_of<N>(id >= screen.compact_count()));
+        const bool any_wide = any(lanes<std::int32_t, N>(id >= screen.compact_count()));
         std::memcpy(f.triangles, ids, sizeof f.triangles);
         if (any_wide)
             for (std::uint32_t& triangle : f.triangles) triangle = screen.triangle(triangle);
         weigh<N>(f, row);
         if (any_wide) weigh_wide<N>(f, ids);
     }
-    template <int N>
-    using ints_of = lanes<std::int32_t, N>;
 
     /// Sets weights and varyings. A vertex's weight is the area of the triangle opposite to it; the sign of the whole
     /// cancels. In float its error is 2^-24 of the triangle's length squared.
     template <int N>
-    INSONIFY_INLINE void weigh(fragment_lanes<N, Varyings>& f, const row_centers<N>& row) const {
-        using positions = typename row_centers<N>::positions;
+    INSONIFY_INLINE void weigh(fragment_lanes<N, Varyings>& f, const row_centres<N>& row) const {
+        using positions = typename row_centres<N>::positions;
         using ints = lanes<std::int32_t, N>;
         using floats = lanes<float, N>;
         const glm::uvec3* corners[static_cast<unsigned>(N)];

@@ -202,9 +202,9 @@ struct small_fill {
         const floats lowest = floats{} + planes.lowest[k], highest = floats{} + planes.highest[k];
         const lanes<std::uint32_t, N> drawn = lanes<std::uint32_t, N>{} + ids[k];
         const int x = t.x0[k] + first, end = t.y1[k];
-        const std::ptrdiff_t start = tile.index(x, t.y0[k]), stride = tile.stride();
-        float* depth = tile.depths() + start;
-        std::uint32_t* shown = HasIds ? tile.ids() + start : nullptr;
+        const std::ptrdiff_t stride = tile.stride();
+        float* depth = tile.depth_at(x, t.y0[k]);
+        std::uint32_t* shown = tile.id_at(x, t.y0[k]);
         auto down = static_cast<Real>(t.down[k]);  // increments exactly: integers of few bits
         for (int y = t.y0[k]; y < end; ++y) {
             const ints covered = ints((bc | ca | ab) >= 0);

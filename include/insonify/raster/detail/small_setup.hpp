@@ -59,12 +59,12 @@ inline bool is_small(std::int64_t width, std::int64_t height) {
     return (width | height) < small_limit;
 }
 
-/// Whether a triangle that is not small is more than 2^12 times as long as wide. In float, weights have an error of
-/// 2^-24 of its length squared, which is no longer small beside its area; those of wide triangles are computed in
-/// double.
+/// Whether a triangle is more than 2^12 times as long as wide. In float, weights have an error of 2^-24 of its length
+/// squared, and so have its quick depths; neither is small beside its area then. It becomes a wide triangle, whose
+/// weights and depths are computed in double.
 /// @param area  twice the area
 inline bool is_sliver(std::int64_t width, std::int64_t height, std::int64_t area) {
-    return !is_small(width, height) && (width * width + height * height) >> 12 > numeric::abs(area);
+    return (width * width + height * height) >> 12 > numeric::abs(area);
 }
 
 /// The vertices of N triangles and their bounding boxes.
@@ -89,8 +89,14 @@ struct triangle_lanes {
     INSONIFY_INLINE bool are_small() const { return !any(ints(((east - west) | (south - north)) >= small_limit)); }
     /// Twice the areas, positive for clockwise on the screen; only of small triangles.
     INSONIFY_INLINE void area(ints& into) const { into = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax); }
+    /// The same as is_sliver, only of small triangles: both squares are below 2^30.
+    /// @param area  twice the areas
+    INSONIFY_INLINE void is_sliver(const ints& area, ints& into) const {
+        const ints width = east - west, height = south - north, twice = area < 0 ? 0 - area : area;
+        into = ints((width * width + height * height) >> 12 > twice);
+    }
 
-    /// The pixels whose centres lie in the bounding boxes, see pixel_grid::first_center.
+    /// The pixels whose centres lie in the bounding boxes, see pixel_grid::first_centre.
     INSONIFY_INLINE void centres(const drawn_area<N>& area, rect_lanes<N>& into) const {
         into.x0 = (west + area.before) >> area.bits;
         into.y0 = (north + area.before) >> area.bits;

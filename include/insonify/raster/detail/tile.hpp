@@ -33,7 +33,7 @@ struct tile_kernel {
         tile.template clear<Width>();
         if (load_image) copy<N>([&](int x, int y) { return std::pair(tile.depth_at(x, y), &image(x, y)); });
         const drawn_area<N> area(triangles.grid(), triangles.pixels);
-        run_reader left(triangles.runs());
+        run_reader left(triangles.bin);
         while (!left.empty()) {
             draw_small_runs<N>(left, area);
             if (left.empty()) break;

@@ -64,7 +64,7 @@ inline void append_frame(mesh& into, const hull_lines& lines, double u, double s
     for (int i = 0; i <= 6; ++i) {
         const double w = 0.02 + (highest - 0.02) * i / 6;
         const glm::dvec3 plate = lines.between(u, w, side, lines.plating() + w * (lines.top(u) - lines.plating()));
-        const glm::dvec3 inward(0, -side * (std::min)(size + lines.plating(), 0.8 * std::abs(plate.y)), 0),
+        const glm::dvec3 inward(0, -side * (std::min)(size + lines.plating(), 0.8 * numeric::abs(plate.y)), 0),
             along(0.4 * size, 0, 0);
         sections.push_back({plate - along, plate + along, plate + along + inward, plate - along + inward});
     }
