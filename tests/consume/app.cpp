@@ -1,5 +1,6 @@
-// A program outside of the project that uses the library: one include, one picture.
+// A program outside of the project that uses the library.
 #include <insonify/insonify.hpp>
+#include <insonify/raster/draw.hpp>
 
 namespace in = insonify;
 
