@@ -1,6 +1,5 @@
-// A program outside of the project that uses the library.
+// A program outside of the project that uses the library: one include, one picture.
 #include <insonify/insonify.hpp>
-#include <insonify/raster/draw.hpp>
 
 namespace in = insonify;
 
