@@ -5478,7 +5478,7 @@ class masked_pass {
         for (int i = 0; i < count; ++i) to[i] = chosen[i] != 0 ? changed[i] : from[i];
     }
     void prepare(const pixel_area& area) {
-        check_size("mask of where", mask_.width(), mask_.height(), area);
+        check_size("mask", mask_.width(), mask_.height(), area);
         x_ = area.x, y_ = area.y;
         prepare_pass(pass_, area);
     }
