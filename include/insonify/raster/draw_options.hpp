@@ -37,8 +37,9 @@ constexpr float empty_depth(keep_depth keep) {
 /// How depth between the vertices is computed.
 enum class depth_precision {
     exact,  ///< correctly rounded: the float nearest to the plane through the three snapped vertices
-    /// In float, clamped to the vertices' depths; a third less time. Off by at most 2^-22 of the largest depth, plus
-    /// 2^-19 of the triangle's range of depths where it fills half of its bounding box, and 2^-7 of it on the thinnest.
+    /// In float, clamped to the vertices' depths; a quarter to a third of the time. Off by at most 2^-22 of the largest
+    /// depth, plus 2^-19 of the triangle's range of depths where it fills half of its bounding box, and 2^-7 of it on
+    /// the thinnest.
     quick,
 };
 
