@@ -22865,9 +22865,8 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors
 /// @throws io_error for a text without soundings or with none but missing data, an Esri grid, a line of fewer than
-/// three
-///         numbers or with decimal commas, soundings that span less than a spacing or crowd at a few vertices, as
-///         those in degrees do, or soundings so far apart that there are more than 1024 vertices for each, or more
+///         three numbers or with decimal commas, soundings that span less than a spacing or crowd at a few vertices,
+///         as those in degrees do, or soundings so far apart that there are more than 1024 vertices for each, or more
 ///         than 2^26
 inline heightfield parse_xyz(std::string_view text, double spacing, float scale = 1, std::string_view name = "xyz") {
     detail::require_positive_metres("spacing", spacing);
