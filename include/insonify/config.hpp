@@ -110,9 +110,9 @@
 #define INSONIFY_DISPATCH 0
 #endif
 
-// INSONIFY_WHOLE_KERNELS: with 1, all calls of a kernel are inlined into one function. With
-// 0, programs compile a little faster and run several times longer, with the same bytes. The default is 0 without
-// optimization and under sanitizers, whose instrumentation would take minutes to compile.
+// INSONIFY_WHOLE_KERNELS: with 1, all calls of a kernel are inlined into one function. With 0, programs compile a
+// little faster and run several times longer, with the same bytes. The default is 0 without optimization and under
+// sanitizers, whose instrumentation would take minutes to compile.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define INSONIFY_SANITIZED 1
 #elif defined(__has_feature)

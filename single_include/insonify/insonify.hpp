@@ -143,9 +143,9 @@
 #define INSONIFY_DISPATCH 0
 #endif
 
-// INSONIFY_WHOLE_KERNELS: with 1, all calls of a kernel are inlined into one function. With
-// 0, programs compile a little faster and run several times longer, with the same bytes. The default is 0 without
-// optimization and under sanitizers, whose instrumentation would take minutes to compile.
+// INSONIFY_WHOLE_KERNELS: with 1, all calls of a kernel are inlined into one function. With 0, programs compile a
+// little faster and run several times longer, with the same bytes. The default is 0 without optimization and under
+// sanitizers, whose instrumentation would take minutes to compile.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define INSONIFY_SANITIZED 1
 #elif defined(__has_feature)
@@ -447,6 +447,7 @@ inline bool parse_number(std::string_view text, double& value) {
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (status == std::errc::invalid_argument || end != text.data() + text.size()) return false;
     if (status == std::errc::result_out_of_range) {
+        // The status does not tell which end of the range was left.
         const bool is_tiny = text.find("e-") != text.npos || text.find("E-") != text.npos;
         value = is_tiny ? 0 : (text[0] == '-' ? -1 : 1) * std::numeric_limits<double>::infinity();
     }
@@ -3537,7 +3538,7 @@ class correlated_draws {
             if (s.x == run.x && s.count == run.count && s.field == field && s.channel == run.channel) return s;
         }
         for (strip& s : strips_)
-            if (s.field == field && s.channel == run.channel && s.y >= run.y) {  // of a column that is finished
+            if (s.field == field && s.channel == run.channel && s.y >= run.y) {  // of columns that are finished
                 s.x = run.x, s.count = run.count, s.filled = false;
                 return s;
             }
@@ -5258,6 +5259,7 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
     using pixel = pass_result<Pass, typename std::remove_cvref_t<Source>::value_type>;
     constexpr bool clean = std::is_same_v<Pass, untouched>;
     if constexpr (image_filter<F, pixel>) {
+        // Not a view, which a callable that takes anything would accept, and write to.
         if constexpr (clean && std::conjunction_v<std::is_same<std::remove_cvref_t<Source>, image<pixel>>,
                                                   std::is_invocable<const F&, Source>>) {
             return run_stages(stage(std::forward<Source>(source)), untouched{}, run, rest...);
@@ -15595,7 +15597,8 @@ class horizon_walk {
     }
     /// The largest u of the corners of some cells of a column.
     double largest_u(int column, int first_row, int last_row) const {
-        const float *const here = horizon_.u().column(column), *const ahead = horizon_.u().column(column + 1);
+        const float* const here = horizon_.u().column(column);
+        const float* const ahead = horizon_.u().column(column + 1);
         float largest = grid_u::nothing;
         for (int y = first_row; y <= last_row + 1; ++y) largest = (std::max)({largest, here[y], ahead[y]});
         return static_cast<double>(largest);
@@ -15663,8 +15666,8 @@ class horizon_walk {
     crossing cross(int column, double limit) const {
         const double slope = grid_.slope, low = row_at(column);
         const int row = static_cast<int>(low);
-        const float *const here = horizon_.u().column(column) + row, *const ahead =
-                                                                         horizon_.u().column(column + 1) + row;
+        const float* const here = horizon_.u().column(column) + row;
+        const float* const ahead = horizon_.u().column(column + 1) + row;
         const auto a = static_cast<double>(here[0]), b = static_cast<double>(ahead[0]),
                    c = static_cast<double>(here[1]), d = static_cast<double>(ahead[1]);
         crossing found;
@@ -22281,8 +22284,9 @@ class csv_table {
     template <csv_cell... Cells>
     void add(const Cells&... cells) {
         detail::require_equal("number of cells in a row", sizeof...(cells), columns_, "one for each column");
-        std::string line;                        // whole before it is added, should memory run out
-        [[maybe_unused]] std::size_t index = 0;  // of a row without cells
+        // The line is whole before it is added, should memory run out. A row without cells uses no index.
+        std::string line;
+        [[maybe_unused]] std::size_t index = 0;
         (append(line, cells, index++), ...);
         line += "\r\n";
         text_ += line;

@@ -44,8 +44,9 @@ class csv_table {
     template <csv_cell... Cells>
     void add(const Cells&... cells) {
         detail::require_equal("number of cells in a row", sizeof...(cells), columns_, "one for each column");
-        std::string line;                        // whole before it is added, should memory run out
-        [[maybe_unused]] std::size_t index = 0;  // of a row without cells
+        // The line is whole before it is added, should memory run out. A row without cells uses no index.
+        std::string line;
+        [[maybe_unused]] std::size_t index = 0;
         (append(line, cells, index++), ...);
         line += "\r\n";
         text_ += line;

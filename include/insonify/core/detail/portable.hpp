@@ -49,6 +49,7 @@ inline bool parse_number(std::string_view text, double& value) {
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (status == std::errc::invalid_argument || end != text.data() + text.size()) return false;
     if (status == std::errc::result_out_of_range) {
+        // The status does not tell which end of the range was left.
         const bool is_tiny = text.find("e-") != text.npos || text.find("E-") != text.npos;
         value = is_tiny ? 0 : (text[0] == '-' ? -1 : 1) * std::numeric_limits<double>::infinity();
     }

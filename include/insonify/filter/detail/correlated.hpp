@@ -71,7 +71,7 @@ class correlated_draws {
             if (s.x == run.x && s.count == run.count && s.field == field && s.channel == run.channel) return s;
         }
         for (strip& s : strips_)
-            if (s.field == field && s.channel == run.channel && s.y >= run.y) {  // of a column that is finished
+            if (s.field == field && s.channel == run.channel && s.y >= run.y) {  // of columns that are finished
                 s.x = run.x, s.count = run.count, s.filled = false;
                 return s;
             }

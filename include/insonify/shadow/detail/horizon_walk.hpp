@@ -138,7 +138,8 @@ class horizon_walk {
     }
     /// The largest u of the corners of some cells of a column.
     double largest_u(int column, int first_row, int last_row) const {
-        const float *const here = horizon_.u().column(column), *const ahead = horizon_.u().column(column + 1);
+        const float* const here = horizon_.u().column(column);
+        const float* const ahead = horizon_.u().column(column + 1);
         float largest = grid_u::nothing;
         for (int y = first_row; y <= last_row + 1; ++y) largest = (std::max)({largest, here[y], ahead[y]});
         return static_cast<double>(largest);
@@ -206,8 +207,8 @@ class horizon_walk {
     crossing cross(int column, double limit) const {
         const double slope = grid_.slope, low = row_at(column);
         const int row = static_cast<int>(low);
-        const float *const here = horizon_.u().column(column) + row, *const ahead =
-                                                                         horizon_.u().column(column + 1) + row;
+        const float* const here = horizon_.u().column(column) + row;
+        const float* const ahead = horizon_.u().column(column + 1) + row;
         const auto a = static_cast<double>(here[0]), b = static_cast<double>(ahead[0]),
                    c = static_cast<double>(here[1]), d = static_cast<double>(ahead[1]);
         crossing found;
