@@ -302,7 +302,7 @@ options parsed(int argc, const char* const* argv,
         }
         for (const char* const name : {"--chip", "--altitude", "--noise"})
             if (given(name)) o.given.insert(name);
-        if (!o.is_sonar()) take_mode_defaults(o);
+        take_mode_defaults(o);
         if (!o.is_sonar() && !o.is_overhead()) {
             if (!given("--size")) o.size = 128;
             if (o.chip == 0)

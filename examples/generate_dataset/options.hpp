@@ -51,13 +51,14 @@ struct options {
     double heightmap_spacing = 0.02, heightmap_scale = 1;
     range target_size{0.4, 0.8}, aspect{0.8, 1.25}, tilt{-3, 3}, burial{0.1, 0.3};
     std::string mode = "overhead";
-    double chip = 0;  ///< metres a side; 0: the field of view
-    range altitude{3.5, 5}, grazing{6, 6}, distance{2, 9}, beam{0.2, 0.5};
-    std::set<std::string> given;  ///< of --chip, --altitude and --noise: the mode decides the others
+    double chip = 0;       ///< metres a side; 0: the field of view
+    range altitude{0, 0};  ///< metres
+    std::vector<std::string> noise;
+    std::set<std::string> given;  ///< of these three; the mode decides the others
+    range grazing{6, 6}, distance{2, 9}, beam{0.2, 0.5};
     double reflectivity = 0.9, intensity = 4, sky = 0.05;
     std::vector<std::string> references;
     std::string match = "masked";
-    std::vector<std::string> noise{"speckle:0.1"};
     std::string colormap = "gray";
     std::string display;                        ///< amplitude, power, decibels, or empty (decided by the recipe)
     std::optional<range> white, display_range;  ///< intensity shown white, decibels; null: the recipe's
