@@ -12,6 +12,7 @@
 #include <insonify/geometry/regular_grid.hpp>
 #include <insonify/geometry/surface_kind.hpp>
 
+#include <concepts>
 #include <memory>
 #include <optional>
 #include <type_traits>
@@ -96,6 +97,11 @@ inline constexpr bool is_among = (std::is_same_v<Shape, Others> || ...);
 template <class Shape>
 inline constexpr bool is_primitive = is_among<Shape, cube, cylinder, capsule, cone, sphere, hemisphere>;
 
+template <class Shape>
+concept has_mesh = requires(const Shape& shape) {
+    { to_mesh(shape) } -> std::convertible_to<mesh>;
+};
+
 }  // namespace detail
 
 /// An immutable mesh: copies refer to the same triangles. Shuffled meshes are reordered, triangles and vertices, for
@@ -112,10 +118,16 @@ class shared_mesh {
     /// program that has no other shapes does not compile it.
     template <class Shape>
     INSONIFY_MEMBER static shared_mesh of(const Shape& shape) {
+        static_assert(
+            detail::has_mesh<Shape>,
+            "a target's shape is a mesh, a shared_mesh, or of a type with a function to_mesh(const T&) in its "
+            "namespace that returns a mesh");
         if constexpr (detail::is_primitive<Shape>)
             return shared_mesh(detail::primitive_facts_of(to_mesh(shape)));
-        else
+        else if constexpr (detail::has_mesh<Shape>)
             return shared_mesh(to_mesh(shape));
+        else
+            return {};
     }
     /// The same as the constructor.
     INSONIFY_MEMBER static shared_mesh of(mesh m) { return shared_mesh(std::move(m)); }

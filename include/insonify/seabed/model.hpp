@@ -143,9 +143,16 @@ inline void require_position(const std::string& name, const glm::dvec2& p) {
 /// Samples per chunk where scratch memory is needed.
 inline constexpr std::size_t chunk = 256;
 
+/// Whether a model or sampler has a `range()` that would be ignored.
+template <class S>
+concept misstated_range = !bounded_sampler<S> && requires(S & s) {
+    s.range();
+};
+
 /// Evaluates a model that has no `prepare()`.
 template <class M>
 struct by_reference {
+    static_assert(!misstated_range<M>, "range() of a seabed is const and returns a seabed::height_range");
     const M* model;
 
     void row(const scanline& line, std::span<float> heights) const requires(sampler<M>) { model->row(line, heights); }
@@ -180,9 +187,13 @@ struct with_kind {
     height_range range() const requires(bounded_sampler<S>) { return heights_only.range(); }
 };
 
-/// @throws invalid_input for a range with an infinite end, as of a model that does not state its heights
+/// @throws invalid_input for a range with an infinite end, as of a model that does not state its heights, or with its
+/// ends
+///         exchanged
 inline void require_finite(const height_range& range) {
     const bool is_empty = range.lowest > range.highest;  // NaN is not
+    if (is_empty && numeric::is_finite(range.lowest - range.highest))
+        refuse("range().lowest of the seabed", range.lowest, "at most range().highest, " + to_text(range.highest));
     require(is_empty || numeric::is_finite(range.highest - range.lowest), "range() of the seabed",
             numeric::is_finite(range.highest) ? range.lowest : range.highest,
             "finite heights that it never leaves (a model without `range()` states none)");
@@ -224,6 +235,7 @@ class known_labels {
 
 template <class S>
 height_range range_of(const S& s) {
+    static_assert(!misstated_range<S>, "range() of a sampler is const and returns a seabed::height_range");
     if constexpr (bounded_sampler<S>) return s.range();
     return height_range::unlimited();
 }

@@ -15,9 +15,9 @@ struct material {
     float reflectivity = 0.5f;  ///< relative, 0 or more
 };
 
-/// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear. A law
-/// may also have `in_lanes(into, s)`, which computes several pixels at a time. A `validate(law)` that is found by its
-/// type is called before anything is drawn.
+/// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear, finite,
+/// 0 or more. A law may also have `in_lanes(into, s)`, which computes several pixels at a time. A `validate(law)` that
+/// is found by its type is called before anything is drawn.
 template <class L>
 concept backscatter_law = requires(const L& law, float s) {
     { law(s) } -> std::convertible_to<float>;

@@ -249,6 +249,10 @@ TEST_CASE("A seabed that leaves the range that it states is refused") {
     CHECK_THROWS_WITH(record({infinite, {-0.2, 0.2}}), ContainsSubstring("a height of the seabed is inf"));
     CHECK_THROWS_WITH(draw({0.5f, {-0.2, 0.25}}),
                       "a height of the seabed is 0.5, expected heights within its range(), -0.2 to 0.25");
+    // Whose ends are exchanged: without heights in view, too.
+    CHECK_THROWS_WITH(draw({0.5f, {1, 0}}), "range().lowest of the seabed is 1, expected at most range().highest, 0");
+    CHECK_THROWS_WITH(draw({0, {1, 0}}), ContainsSubstring("range().lowest of the seabed is 1"));
+    CHECK_THROWS_WITH(occlude({0, {1, 0}}), ContainsSubstring("range().lowest of the seabed is 1"));
     CHECK_NOTHROW(draw({0.3f, {-0.3, 0.3}}));  // float holds 0.3 a little above
     CHECK_NOTHROW(occlude({0.3f, {-0.3, 0.3}}));
     CHECK_NOTHROW(record({0.3f, {-0.3, 0.3}}));

@@ -144,16 +144,27 @@ TEST_CASE("record() refuses each field of a sonar equation by name") {
     };
     check_fields<in::source_level>("source_level.", {}, use, {FIELD(decibels, outside(-300, 300))});
     check_fields<in::absorption>("absorption.", {}, use, {FIELD(decibels_per_km, outside(0, 3000))});
+    const std::vector<double> no_beamwidth{nan_value, infinity, -infinity, -1, 0, 6.3};
     check_fields<in::vertical_beam>(
         "vertical_beam.", {}, use,
-        {FIELD(beamwidth, not_above_0), FIELD(tilt, not_an_angle), FIELD(side_lobes, below_0)});
-    check_fields<in::horizontal_beam>("horizontal_beam.", {}, use, {FIELD(beamwidth, not_above_0)});
+        {FIELD(beamwidth, no_beamwidth), FIELD(tilt, outside(-in::numeric::pi, in::numeric::pi)),
+         FIELD(side_lobes, below_0)});
+    check_fields<in::horizontal_beam>("horizontal_beam.", {}, use, {FIELD(beamwidth, no_beamwidth)});
     check_fields<in::pulse>("pulse.", {}, use, {FIELD(length, below_0)});
     check_fields<in::noise_floor>("noise_floor.", {}, use, {FIELD(intensity, below_0)});
     check_fields<in::time_varied_gain>("time_varied_gain.", {}, use,
                                        {FIELD(spreading, outside(0, 60)), FIELD(absorption_per_km, outside(0, 3000)),
                                         FIELD(decibels, outside(-300, 300))});
     check_fields<in::level_gain>("level_gain.", {}, use, {FIELD(steepest, outside(0, 1.5708))});
+}
+
+TEST_CASE("Both sonars refuse a backscatter law that is negative or not finite at some angle") {
+    for (const float wrong : {-1.0f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        const auto law = [=](float s) { return s > 0.7f && s < 0.75f ? wrong : s; };
+        const auto message = ContainsSubstring("law(0.703125) is " + in::detail::to_text(wrong) + ", expected finite");
+        CHECK_THROWS_WITH(in::render(small_scene(), small_rig, in::render_options<>{}.with(law)), message);
+        CHECK_THROWS_WITH(in::render(small_scene(), small_side_scan, in::record_options<>{}.with(law)), message);
+    }
 }
 
 TEST_CASE("Both sonars refuse each field of a backscatter law by name") {

@@ -225,10 +225,12 @@ struct lane_shading_kernel {
             });
             convert(right[i], ints(positions(v.x) - px));
             convert(down[i], ints(positions(v.y) - row.down));
+            floats inverse;
             if constexpr (std::is_same_v<typename Screen::real, float>)
-                inverse_w[i] = v.inverse_w;
+                inverse = v.inverse_w;
             else
-                gather<N>(inverse_w[i], [&](int k) { return static_cast<float>(vertices.inverse_w[index[k]]); });
+                gather<N>(inverse, [&](int k) { return static_cast<float>(vertices.inverse_w[index[k]]); });
+            inverse_w[i] = inverse;
             unroll<record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
                 transpose<N>(f.values_[i] + 4 * block,
                              [&](int k) INSONIFY_INLINE_LAMBDA { return records[index[k]].values + 4 * block; });

@@ -10,6 +10,16 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
+/// @throws invalid_input for a law that is negative, infinite or NaN at one of 64 angles
+template <class Law>
+void require_echoes(const Law& law) {
+    constexpr int angles = 64;
+    for (int i = 1; i <= angles; ++i) {
+        const float sine = static_cast<float>(i) / angles, echo = law(sine);
+        if (!(echo >= 0 && numeric::is_finite(echo))) refuse("law(" + to_text(sine) + ")", echo, "finite, 0 or more");
+    }
+}
+
 /// The materials of a valid scene's bottom, by seabed::type.
 /// @throws invalid_input for a scene, a cell or a law out of range
 template <class Options>
@@ -18,6 +28,7 @@ bottom_materials checked_materials(const scene& s, const Options& options) {
     require_numbered_targets(s);
     require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "0 metres or more");
     validate_if_possible(options.law);
+    require_echoes(options.law);
     return resolved_bottom(s);
 }
 

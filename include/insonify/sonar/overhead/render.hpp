@@ -122,8 +122,9 @@ class overhead_painter {
         require(spacing >= min_cell(view_) && spacing < 1e6, "cell", spacing,
                 "at least a 32768th of the picture, and below 10^6 metres");
 
-        seabed::height_range range = merge(scene_.seabed.prepare().range(), {0, 0});
+        seabed::height_range range = scene_.seabed.prepare().range();
         seabed::detail::require_finite(range);
+        range = merge(range, {0, 0});
         const auto sample = [&](const seabed::height_range& heights) {
             ground_rect ground = shown_ground(view_, heights);
             if constexpr (casts)

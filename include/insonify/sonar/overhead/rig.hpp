@@ -49,7 +49,7 @@ inline void validate(const overhead& rig) {
     require_range("overhead.size.x", rig.size.x, 1, 32768, "1 to 32768");
     require_range("overhead.size.y", rig.size.y, 1, 32768, "1 to 32768");
     require(rig.grazing >= 1e-9f && static_cast<double>(rig.grazing) <= numeric::pi / 2 + 1e-7, "overhead.grazing",
-            rig.grazing, "10^-9 to pi / 2");
+            rig.grazing, "10^-9 to pi / 2 radians");
     detail::require_angle("overhead.light_azimuth", rig.light_azimuth);
     require(rig.light_distance > 0, "overhead.light_distance", rig.light_distance, "above 0 metres");
     require_not_negative("overhead.intensity", rig.intensity);

@@ -11,6 +11,7 @@
 #include <insonify/core/numeric.hpp>
 
 #include <concepts>
+#include <string_view>
 #include <tuple>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -138,6 +139,15 @@ struct level_gain {
     }
 };
 
+namespace detail::inline INSONIFY_FLAGS {
+
+inline void require_beamwidth(std::string_view name, float radians) {
+    require(radians > 0 && static_cast<double>(radians) <= 2 * numeric::pi, name, radians,
+            "radians, above 0 and at most 2 pi");
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
 inline namespace INSONIFY_FLAGS {
 
 // Recordings call `validate` for each part whose type has one, also for your own. They throw invalid_input for a value
@@ -150,14 +160,13 @@ inline void validate(const absorption& a) {
     detail::require_range("absorption.decibels_per_km", a.decibels_per_km, 0, 3000, "0 to 3000 dB");
 }
 inline void validate(const vertical_beam& b) {
-    detail::require(b.beamwidth > 0 && numeric::is_finite(b.beamwidth), "vertical_beam.beamwidth", b.beamwidth,
-                    "radians above 0");
-    detail::require_angle("vertical_beam.tilt", b.tilt);
+    detail::require_beamwidth("vertical_beam.beamwidth", b.beamwidth);
+    detail::require_range("vertical_beam.tilt", static_cast<double>(b.tilt), -numeric::pi, numeric::pi,
+                          "-pi to pi radians");
     detail::require_not_negative("vertical_beam.side_lobes", b.side_lobes);
 }
 inline void validate(const horizontal_beam& b) {
-    detail::require(b.beamwidth > 0 && numeric::is_finite(b.beamwidth), "horizontal_beam.beamwidth", b.beamwidth,
-                    "radians above 0");
+    detail::require_beamwidth("horizontal_beam.beamwidth", b.beamwidth);
 }
 inline void validate(const pulse& p) {
     detail::require_range("pulse.length", p.length, 0, 1e5f, "0 to 10^5 metres");
@@ -212,7 +221,7 @@ concept equation_part = detail::direction_part<P> || detail::range_part<P> || de
     detail::pulse_part<P> || detail::noise_part<P> || detail::gain_part<P>;
 
 /// A list of parts, as in `sonar_equation{spreading_loss{}, absorption{}, time_varied_gain{}}`, in any order; at
-/// most one horizontal beam and one pulse.
+/// most one horizontal beam and one pulse. Gains multiply, and a level_gain takes no account of others: use one.
 template <equation_part... Parts>
 class sonar_equation {
   public:
