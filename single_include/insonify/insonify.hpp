@@ -7271,6 +7271,11 @@ inline constexpr bool is_among = (std::is_same_v<Shape, Others> || ...);
 template <class Shape>
 inline constexpr bool is_primitive = is_among<Shape, cube, cylinder, capsule, cone, sphere, hemisphere>;
 
+template <class Shape>
+concept has_mesh = requires(const Shape& shape) {
+    { to_mesh(shape) } -> std::convertible_to<mesh>;
+};
+
 }  // namespace detail
 
 /// An immutable mesh: copies refer to the same triangles. Shuffled meshes are reordered, triangles and vertices, for
@@ -7287,10 +7292,16 @@ class shared_mesh {
     /// program that has no other shapes does not compile it.
     template <class Shape>
     INSONIFY_MEMBER static shared_mesh of(const Shape& shape) {
+        static_assert(
+            detail::has_mesh<Shape>,
+            "a target's shape is a mesh, a shared_mesh, or of a type with a function to_mesh(const T&) in its "
+            "namespace that returns a mesh");
         if constexpr (detail::is_primitive<Shape>)
             return shared_mesh(detail::primitive_facts_of(to_mesh(shape)));
-        else
+        else if constexpr (detail::has_mesh<Shape>)
             return shared_mesh(to_mesh(shape));
+        else
+            return {};
     }
     /// The same as the constructor.
     INSONIFY_MEMBER static shared_mesh of(mesh m) { return shared_mesh(std::move(m)); }
@@ -8322,9 +8333,16 @@ inline void require_position(const std::string& name, const glm::dvec2& p) {
 /// Samples per chunk where scratch memory is needed.
 inline constexpr std::size_t chunk = 256;
 
+/// Whether a model or sampler has a `range()` that would be ignored.
+template <class S>
+concept misstated_range = !bounded_sampler<S> && requires(S & s) {
+    s.range();
+};
+
 /// Evaluates a model that has no `prepare()`.
 template <class M>
 struct by_reference {
+    static_assert(!misstated_range<M>, "range() of a seabed is const and returns a seabed::height_range");
     const M* model;
 
     void row(const scanline& line, std::span<float> heights) const requires(sampler<M>) { model->row(line, heights); }
@@ -8359,9 +8377,13 @@ struct with_kind {
     height_range range() const requires(bounded_sampler<S>) { return heights_only.range(); }
 };
 
-/// @throws invalid_input for a range with an infinite end, as of a model that does not state its heights
+/// @throws invalid_input for a range with an infinite end, as of a model that does not state its heights, or with its
+/// ends
+///         exchanged
 inline void require_finite(const height_range& range) {
     const bool is_empty = range.lowest > range.highest;  // NaN is not
+    if (is_empty && numeric::is_finite(range.lowest - range.highest))
+        refuse("range().lowest of the seabed", range.lowest, "at most range().highest, " + to_text(range.highest));
     require(is_empty || numeric::is_finite(range.highest - range.lowest), "range() of the seabed",
             numeric::is_finite(range.highest) ? range.lowest : range.highest,
             "finite heights that it never leaves (a model without `range()` states none)");
@@ -8403,6 +8425,7 @@ class known_labels {
 
 template <class S>
 height_range range_of(const S& s) {
+    static_assert(!misstated_range<S>, "range() of a sampler is const and returns a seabed::height_range");
     if constexpr (bounded_sampler<S>) return s.range();
     return height_range::unlimited();
 }
@@ -10684,9 +10707,9 @@ struct material {
     float reflectivity = 0.5f;  ///< relative, 0 or more
 };
 
-/// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear. A law
-/// may also have `in_lanes(into, s)`, which computes several pixels at a time. A `validate(law)` that is found by its
-/// type is called before anything is drawn.
+/// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear, finite,
+/// 0 or more. A law may also have `in_lanes(into, s)`, which computes several pixels at a time. A `validate(law)` that
+/// is found by its type is called before anything is drawn.
 template <class L>
 concept backscatter_law = requires(const L& law, float s) {
     { law(s) } -> std::convertible_to<float>;
@@ -11486,7 +11509,7 @@ inline void validate(const overhead& rig) {
     require_range("overhead.size.x", rig.size.x, 1, 32768, "1 to 32768");
     require_range("overhead.size.y", rig.size.y, 1, 32768, "1 to 32768");
     require(rig.grazing >= 1e-9f && static_cast<double>(rig.grazing) <= numeric::pi / 2 + 1e-7, "overhead.grazing",
-            rig.grazing, "10^-9 to pi / 2");
+            rig.grazing, "10^-9 to pi / 2 radians");
     detail::require_angle("overhead.light_azimuth", rig.light_azimuth);
     require(rig.light_distance > 0, "overhead.light_distance", rig.light_distance, "above 0 metres");
     require_not_negative("overhead.intensity", rig.intensity);
@@ -14553,10 +14576,12 @@ struct lane_shading_kernel {
             });
             convert(right[i], ints(positions(v.x) - px));
             convert(down[i], ints(positions(v.y) - row.down));
+            floats inverse;
             if constexpr (std::is_same_v<typename Screen::real, float>)
-                inverse_w[i] = v.inverse_w;
+                inverse = v.inverse_w;
             else
-                gather<N>(inverse_w[i], [&](int k) { return static_cast<float>(vertices.inverse_w[index[k]]); });
+                gather<N>(inverse, [&](int k) { return static_cast<float>(vertices.inverse_w[index[k]]); });
+            inverse_w[i] = inverse;
             unroll<record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
                 transpose<N>(f.values_[i] + 4 * block,
                              [&](int k) INSONIFY_INLINE_LAMBDA { return records[index[k]].values + 4 * block; });
@@ -17064,6 +17089,16 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
+/// @throws invalid_input for a law that is negative, infinite or NaN at one of 64 angles
+template <class Law>
+void require_echoes(const Law& law) {
+    constexpr int angles = 64;
+    for (int i = 1; i <= angles; ++i) {
+        const float sine = static_cast<float>(i) / angles, echo = law(sine);
+        if (!(echo >= 0 && numeric::is_finite(echo))) refuse("law(" + to_text(sine) + ")", echo, "finite, 0 or more");
+    }
+}
+
 /// The materials of a valid scene's bottom, by seabed::type.
 /// @throws invalid_input for a scene, a cell or a law out of range
 template <class Options>
@@ -17072,6 +17107,7 @@ bottom_materials checked_materials(const scene& s, const Options& options) {
     require_numbered_targets(s);
     require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "0 metres or more");
     validate_if_possible(options.law);
+    require_echoes(options.law);
     return resolved_bottom(s);
 }
 
@@ -18797,8 +18833,9 @@ class overhead_painter {
         require(spacing >= min_cell(view_) && spacing < 1e6, "cell", spacing,
                 "at least a 32768th of the picture, and below 10^6 metres");
 
-        seabed::height_range range = merge(scene_.seabed.prepare().range(), {0, 0});
+        seabed::height_range range = scene_.seabed.prepare().range();
         seabed::detail::require_finite(range);
+        range = merge(range, {0, 0});
         const auto sample = [&](const seabed::height_range& heights) {
             ground_rect ground = shown_ground(view_, heights);
             if constexpr (casts)
@@ -24531,6 +24568,15 @@ struct level_gain {
     }
 };
 
+namespace detail::inline INSONIFY_FLAGS {
+
+inline void require_beamwidth(std::string_view name, float radians) {
+    require(radians > 0 && static_cast<double>(radians) <= 2 * numeric::pi, name, radians,
+            "radians, above 0 and at most 2 pi");
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
 inline namespace INSONIFY_FLAGS {
 
 // Recordings call `validate` for each part whose type has one, also for your own. They throw invalid_input for a value
@@ -24543,14 +24589,13 @@ inline void validate(const absorption& a) {
     detail::require_range("absorption.decibels_per_km", a.decibels_per_km, 0, 3000, "0 to 3000 dB");
 }
 inline void validate(const vertical_beam& b) {
-    detail::require(b.beamwidth > 0 && numeric::is_finite(b.beamwidth), "vertical_beam.beamwidth", b.beamwidth,
-                    "radians above 0");
-    detail::require_angle("vertical_beam.tilt", b.tilt);
+    detail::require_beamwidth("vertical_beam.beamwidth", b.beamwidth);
+    detail::require_range("vertical_beam.tilt", static_cast<double>(b.tilt), -numeric::pi, numeric::pi,
+                          "-pi to pi radians");
     detail::require_not_negative("vertical_beam.side_lobes", b.side_lobes);
 }
 inline void validate(const horizontal_beam& b) {
-    detail::require(b.beamwidth > 0 && numeric::is_finite(b.beamwidth), "horizontal_beam.beamwidth", b.beamwidth,
-                    "radians above 0");
+    detail::require_beamwidth("horizontal_beam.beamwidth", b.beamwidth);
 }
 inline void validate(const pulse& p) {
     detail::require_range("pulse.length", p.length, 0, 1e5f, "0 to 10^5 metres");
@@ -24605,7 +24650,7 @@ concept equation_part = detail::direction_part<P> || detail::range_part<P> || de
     detail::pulse_part<P> || detail::noise_part<P> || detail::gain_part<P>;
 
 /// A list of parts, as in `sonar_equation{spreading_loss{}, absorption{}, time_varied_gain{}}`, in any order; at
-/// most one horizontal beam and one pulse.
+/// most one horizontal beam and one pulse. Gains multiply, and a level_gain takes no account of others: use one.
 template <equation_part... Parts>
 class sonar_equation {
   public:
