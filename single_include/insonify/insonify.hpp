@@ -7273,7 +7273,7 @@ inline constexpr bool is_primitive = is_among<Shape, cube, cylinder, capsule, co
 
 template <class Shape>
 concept has_mesh = requires(const Shape& shape) {
-    { to_mesh(shape) } -> std::convertible_to<mesh>;
+    { to_mesh(shape) } -> std::convertible_to<shared_mesh>;
 };
 
 }  // namespace detail
@@ -7292,10 +7292,9 @@ class shared_mesh {
     /// program that has no other shapes does not compile it.
     template <class Shape>
     INSONIFY_MEMBER static shared_mesh of(const Shape& shape) {
-        static_assert(
-            detail::has_mesh<Shape>,
-            "a target's shape is a mesh, a shared_mesh, or of a type with a function to_mesh(const T&) in its "
-            "namespace that returns a mesh");
+        static_assert(detail::has_mesh<Shape>,
+                      "a target's shape is a mesh, a shared_mesh, or of a type with a function to_mesh(const T&) in "
+                      "its namespace that returns one of them");
         if constexpr (detail::is_primitive<Shape>)
             return shared_mesh(detail::primitive_facts_of(to_mesh(shape)));
         else if constexpr (detail::has_mesh<Shape>)
@@ -8377,9 +8376,9 @@ struct with_kind {
     height_range range() const requires(bounded_sampler<S>) { return heights_only.range(); }
 };
 
-/// @throws invalid_input for a range with an infinite end, as of a model that does not state its heights, or with its
-/// ends
-///         exchanged
+/// @throws invalid_input for a range with its ends exchanged, or with an infinite one, as of a model that does not
+/// state
+///         its heights
 inline void require_finite(const height_range& range) {
     const bool is_empty = range.lowest > range.highest;  // NaN is not
     if (is_empty && numeric::is_finite(range.lowest - range.highest))
@@ -17089,12 +17088,14 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// @throws invalid_input for a law that is negative, infinite or NaN at one of 64 angles
+/// Checks a law at 64 angles, once for each picture.
+/// @throws invalid_input for a value that is negative, infinite or NaN
 template <class Law>
 void require_echoes(const Law& law) {
     constexpr int angles = 64;
     for (int i = 1; i <= angles; ++i) {
-        const float sine = static_cast<float>(i) / angles, echo = law(sine);
+        const float sine = static_cast<float>(i) / angles;
+        const auto echo = static_cast<float>(law(sine));
         if (!(echo >= 0 && numeric::is_finite(echo))) refuse("law(" + to_text(sine) + ")", echo, "finite, 0 or more");
     }
 }

@@ -99,7 +99,7 @@ inline constexpr bool is_primitive = is_among<Shape, cube, cylinder, capsule, co
 
 template <class Shape>
 concept has_mesh = requires(const Shape& shape) {
-    { to_mesh(shape) } -> std::convertible_to<mesh>;
+    { to_mesh(shape) } -> std::convertible_to<shared_mesh>;
 };
 
 }  // namespace detail
@@ -118,10 +118,9 @@ class shared_mesh {
     /// program that has no other shapes does not compile it.
     template <class Shape>
     INSONIFY_MEMBER static shared_mesh of(const Shape& shape) {
-        static_assert(
-            detail::has_mesh<Shape>,
-            "a target's shape is a mesh, a shared_mesh, or of a type with a function to_mesh(const T&) in its "
-            "namespace that returns a mesh");
+        static_assert(detail::has_mesh<Shape>,
+                      "a target's shape is a mesh, a shared_mesh, or of a type with a function to_mesh(const T&) in "
+                      "its namespace that returns one of them");
         if constexpr (detail::is_primitive<Shape>)
             return shared_mesh(detail::primitive_facts_of(to_mesh(shape)));
         else if constexpr (detail::has_mesh<Shape>)

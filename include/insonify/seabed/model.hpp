@@ -187,9 +187,9 @@ struct with_kind {
     height_range range() const requires(bounded_sampler<S>) { return heights_only.range(); }
 };
 
-/// @throws invalid_input for a range with an infinite end, as of a model that does not state its heights, or with its
-/// ends
-///         exchanged
+/// @throws invalid_input for a range with its ends exchanged, or with an infinite one, as of a model that does not
+/// state
+///         its heights
 inline void require_finite(const height_range& range) {
     const bool is_empty = range.lowest > range.highest;  // NaN is not
     if (is_empty && numeric::is_finite(range.lowest - range.highest))

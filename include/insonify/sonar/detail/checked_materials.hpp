@@ -10,12 +10,14 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// @throws invalid_input for a law that is negative, infinite or NaN at one of 64 angles
+/// Checks a law at 64 angles, once for each picture.
+/// @throws invalid_input for a value that is negative, infinite or NaN
 template <class Law>
 void require_echoes(const Law& law) {
     constexpr int angles = 64;
     for (int i = 1; i <= angles; ++i) {
-        const float sine = static_cast<float>(i) / angles, echo = law(sine);
+        const float sine = static_cast<float>(i) / angles;
+        const auto echo = static_cast<float>(law(sine));
         if (!(echo >= 0 && numeric::is_finite(echo))) refuse("law(" + to_text(sine) + ")", echo, "finite, 0 or more");
     }
 }
