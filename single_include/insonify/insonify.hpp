@@ -8484,9 +8484,10 @@ inline void extend(std::vector<type_properties>& legend, const std::vector<type_
             std::find_if(legend.begin(), legend.end(), [&](const type_properties& q) { return q.label == p.label; });
         if (same == legend.end())
             legend.push_back(p);
-        else
-            insonify::detail::require(*same == p, "type_properties.label", index_of(p.label),
-                                      "a label that is listed once, or with the same properties");
+        else if (!(*same == p))
+            detail::refuse(
+                "type_properties.label of " + insonify::detail::quoted(p.name), index_of(p.label),
+                "another label: this is that of " + insonify::detail::quoted(same->name) + ", with other properties");
     }
 }
 

@@ -139,7 +139,7 @@ TEST_CASE("A label has one set of properties in a scene, and those of the librar
     CHECK_NOTHROW(draw(sb::blend{.first = dim, .second = other}));
     CHECK_NOTHROW(draw(sb::blend{.first = dim, .second = dim}));
     CHECK_THROWS_WITH(draw(sb::blend{.first = dim, .second = bright}),
-                      ContainsSubstring("type_properties.label is 64"));
+                      ContainsSubstring("type_properties.label of 'bright' is 64"));
     CHECK_THROWS_WITH(draw(painted{{sb::type::sand, "bright sand", 0.9f}}), ContainsSubstring("own_type(n)"));
     CHECK_NOTHROW(draw(painted{sb::properties_of(sb::type::sand)}));
 }
@@ -280,13 +280,14 @@ TEST_CASE("An own label that a seabed writes but does not list is refused: it wo
     struct contradictory : stripes {
         std::vector<sb::type_properties> legend() const {
             auto all = stripes::legend();
-            all.push_back({sb::own_type(0), "light", 0.7f, {}});
+            all.push_back({sb::own_type(0), "pale", 0.7f, {}});
             return all;
         }
     };
     s.seabed = contradictory{};
     CHECK_THROWS_WITH(in::render(s, in::overhead{.size = {8, 8}}),
-                      "type_properties.label is 64, expected a label that is listed once, or with the same properties");
+                      "type_properties.label of 'pale' is 64, expected another label: this is that of 'dark', with "
+                      "other properties");
     s.seabed = sb::blend{.first = sb::mud{}, .second = stripes{}};
     CHECK_NOTHROW(in::render(s, in::overhead{.size = {8, 8}}));
 }
