@@ -7271,6 +7271,7 @@ inline constexpr bool is_among = (std::is_same_v<Shape, Others> || ...);
 template <class Shape>
 inline constexpr bool is_primitive = is_among<Shape, cube, cylinder, capsule, cone, sphere, hemisphere>;
 
+/// Shapes that `to_mesh` takes.
 template <class Shape>
 concept has_mesh = requires(const Shape& shape) {
     { to_mesh(shape) } -> std::convertible_to<shared_mesh>;
@@ -7300,7 +7301,7 @@ class shared_mesh {
         else if constexpr (detail::has_mesh<Shape>)
             return shared_mesh(to_mesh(shape));
         else
-            return {};
+            return {};  // so that the message above is the only error
     }
     /// The same as the constructor.
     INSONIFY_MEMBER static shared_mesh of(mesh m) { return shared_mesh(std::move(m)); }
@@ -8376,9 +8377,7 @@ struct with_kind {
     height_range range() const requires(bounded_sampler<S>) { return heights_only.range(); }
 };
 
-/// @throws invalid_input for a range with its ends exchanged, or with an infinite one, as of a model that does not
-/// state
-///         its heights
+/// @throws invalid_input for a range with its ends exchanged, or with an infinite end: that of models that state none
 inline void require_finite(const height_range& range) {
     const bool is_empty = range.lowest > range.highest;  // NaN is not
     if (is_empty && numeric::is_finite(range.lowest - range.highest))

@@ -97,6 +97,7 @@ inline constexpr bool is_among = (std::is_same_v<Shape, Others> || ...);
 template <class Shape>
 inline constexpr bool is_primitive = is_among<Shape, cube, cylinder, capsule, cone, sphere, hemisphere>;
 
+/// Shapes that `to_mesh` takes.
 template <class Shape>
 concept has_mesh = requires(const Shape& shape) {
     { to_mesh(shape) } -> std::convertible_to<shared_mesh>;
@@ -126,7 +127,7 @@ class shared_mesh {
         else if constexpr (detail::has_mesh<Shape>)
             return shared_mesh(to_mesh(shape));
         else
-            return {};
+            return {};  // so that the message above is the only error
     }
     /// The same as the constructor.
     INSONIFY_MEMBER static shared_mesh of(mesh m) { return shared_mesh(std::move(m)); }

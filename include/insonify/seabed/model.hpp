@@ -187,9 +187,7 @@ struct with_kind {
     height_range range() const requires(bounded_sampler<S>) { return heights_only.range(); }
 };
 
-/// @throws invalid_input for a range with its ends exchanged, or with an infinite one, as of a model that does not
-/// state
-///         its heights
+/// @throws invalid_input for a range with its ends exchanged, or with an infinite end: that of models that state none
 inline void require_finite(const height_range& range) {
     const bool is_empty = range.lowest > range.highest;  // NaN is not
     if (is_empty && numeric::is_finite(range.lowest - range.highest))
