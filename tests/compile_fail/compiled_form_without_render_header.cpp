@@ -8,10 +8,10 @@
 
 namespace in = insonify;
 
-struct even {
+struct isotropic {
     float operator()(float) const { return 1; }
 };
 
 in::frame<> draw(const in::scene& scene) {
-    return in::render(scene, in::overhead{}, in::render_options<>{}.with(even{}));
+    return in::render(scene, in::overhead{}, in::render_options<>{}.with(isotropic{}));
 }

@@ -10,7 +10,7 @@ struct lit {
     float light;
 };
 
-void draw_cube(in::image<float>& color, in::image<float>& depth) {
+void shade_cube(in::image<float>& color, in::image<float>& depth) {
     const auto vertex_shader = [](const in::vertex& v) {
         return in::placed_vertex<lit>{glm::vec4(v.position, 1), {v.normal.z}};
     };

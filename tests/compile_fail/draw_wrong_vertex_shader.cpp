@@ -6,7 +6,7 @@
 
 namespace in = insonify;
 
-void draw_cube(in::image<float>& color, in::image<float>& depth) {
+void place_cube(in::image<float>& color, in::image<float>& depth) {
 #if defined(INSONIFY_COMPILE_FAIL)
     const auto vertex_shader = [](const in::vertex& v) { return v.position; };
 #else

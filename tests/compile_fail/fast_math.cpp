@@ -4,5 +4,3 @@
 #define __FAST_MATH__ 1
 #endif
 #include <insonify/insonify.hpp>
-
-int main() {}

@@ -5,7 +5,7 @@
 
 namespace in = insonify;
 
-int main() {
+void gray_picture() {
     in::image<in::rgb8> colors(4, 4);
 #if defined(INSONIFY_COMPILE_FAIL)
     in::apply_in_place(colors.view(), in::to_gray{});
@@ -13,5 +13,4 @@ int main() {
     in::image<std::uint8_t> gray(4, 4);
     in::apply_into(colors.view(), gray.view(), in::to_gray{});
 #endif
-    return 0;
 }

@@ -5,7 +5,7 @@
 
 namespace in = insonify;
 
-int main() {
+bool doubled() {
     const in::image<float> frame(4, 4);
 #if defined(INSONIFY_COMPILE_FAIL)
     return (frame | [](float& v) { v *= 2; }).empty();

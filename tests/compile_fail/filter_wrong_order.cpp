@@ -6,7 +6,7 @@
 
 namespace in = insonify;
 
-int main() {
+bool colored() {
     const in::image<float> frame(4, 4);
 #if defined(INSONIFY_COMPILE_FAIL)
     const auto look = in::colormap::copper | in::equalize{};

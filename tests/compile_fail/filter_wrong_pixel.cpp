@@ -5,7 +5,7 @@
 
 namespace in = insonify;
 
-int main() {
+bool noisy_picture() {
     const in::image<double> picture(4, 4);
 #if defined(INSONIFY_COMPILE_FAIL)
     const auto noisy = picture | in::speckle{};

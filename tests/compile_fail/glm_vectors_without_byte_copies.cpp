@@ -4,5 +4,3 @@
 #define GLM_FORCE_CTOR_INIT
 #endif
 #include <insonify/insonify.hpp>
-
-int main() {}

@@ -2,17 +2,17 @@
 // expect: deleted
 #include <insonify/core/image.hpp>
 
-insonify::image<float> made() {
+insonify::image<float> zeros() {
     return {4, 4};
 }
 
-int main() {
+float sum_of_pixels() {
     float sum = 0;
 #if defined(INSONIFY_COMPILE_FAIL)
-    for (const float pixel : made().pixels()) sum += pixel;
+    for (const float pixel : zeros().pixels()) sum += pixel;
 #else
-    const auto image = made();
+    const auto image = zeros();
     for (const float pixel : image.pixels()) sum += pixel;
 #endif
-    return static_cast<int>(sum);
+    return sum;
 }

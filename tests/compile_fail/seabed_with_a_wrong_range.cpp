@@ -6,7 +6,7 @@
 
 namespace in = insonify;
 
-struct slope {
+struct terrace {
     in::seabed::type kind = in::seabed::type::sand;
     void row(const in::seabed::scanline&, std::span<float> heights) const {
         for (float& height : heights) height = 0.01f;
@@ -22,6 +22,6 @@ struct slope {
 #endif
 };
 
-void make(in::scene& scene) {
-    scene.seabed = slope{};
+void set_terrace(in::scene& scene) {
+    scene.seabed = terrace{};
 }

@@ -13,6 +13,6 @@ struct slope {
     }
 };
 
-void make(in::scene& scene) {
+void set_slope(in::scene& scene) {
     scene.seabed = slope{};
 }

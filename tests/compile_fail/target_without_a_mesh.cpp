@@ -13,6 +13,6 @@ in::mesh to_mesh(const anchor&) {
 #endif
 }  // namespace user
 
-void make(in::scene& scene) {
+void add_anchor(in::scene& scene) {
     scene.add(user::anchor{}, {}, "anchor");
 }
