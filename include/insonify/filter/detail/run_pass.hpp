@@ -3,6 +3,7 @@
 
 #include <insonify/core/executor.hpp>
 #include <insonify/core/image.hpp>
+#include <insonify/core/numeric.hpp>
 #include <insonify/filter/concept.hpp>
 
 #include <algorithm>

@@ -7,6 +7,7 @@
 
 #include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/image.hpp>
+#include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/overhead/detail/point_pass.hpp>
 #include <insonify/sonar/overhead/detail/undecided_light.hpp>
 
