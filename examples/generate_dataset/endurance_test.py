@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
-"""Memory stays constant and the rate does not fall over many chips in one process: endurance_test.py <generate_dataset>
+"""Memory and rate stay constant over many chips in one process: endurance_test.py <generate_dataset>
 
 INSONIFY_CHIPS: number of chips (2000; tools/test --full: 100000). INSONIFY_CHIP_SIZE: their pixels a side (32). Processor
 time, not wall-clock time, is measured for each hundredth of the set. Other programs only increase it, so the 20th
-percentiles are compared: that of the second half may be at most 5 % above that of the first. Below 20000 chips the rate is
-printed and not checked.
+percentiles are compared. Below 20000 chips the rate is printed and not checked.
 """
 
 import os
@@ -65,7 +64,7 @@ def main():
           f"the first half, {late:.2f} in the second; {before:.1f} MB after a tenth, {after:.1f} at most from there on")
     assert after <= 1.05 * before, "memory grows"
     if COUNT >= 20000:
-        assert late <= 1.05 * early, "the rate falls"
+        assert abs(late - early) <= 0.05 * early, "the rate changes"
 
 
 if __name__ == "__main__":
