@@ -7,10 +7,12 @@
 #include <insonify/io/png.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <tuple>
 #include <vector>
 
@@ -82,9 +84,11 @@ in::image<float> shrink(const in::image<float>& picture) {
 int main(int argc, char** argv) try {
     examples::check_arguments(argc, argv, 2, 3, "contact_sheet <data set> <out.png> [images per class]");
     const std::string folder = argv[1];
-    const int number = argc > 3 ? std::atoi(argv[3]) : 6;
-    if (number < 1) throw in::invalid_input("images per class: '" + std::string(argv[3]) + "' is not a number from 1");
-    const auto per_class = static_cast<std::size_t>(number);
+    const std::string_view number = argc > 3 ? argv[3] : "6";
+    std::size_t per_class = 0;
+    const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), per_class);
+    if (status != std::errc{} || end != number.data() + number.size() || per_class == 0)
+        throw in::invalid_input("images per class: '" + std::string(number) + "' is not a number from 1");
     const auto classes = read_manifest(folder);
     if (classes.empty()) throw in::io_error(folder + ": has no images to show");
 

@@ -4,7 +4,7 @@
 //     images/<class>/<block>/<id>.png               all images of a class
 //     masks/<block>/<id>_{target,shadow,seabed}.png
 //     records/<block>/<id>.json                     one per image; written last, so that its files are complete
-//     annotations.json  manifest.csv  SHA256SUMS    tables of all records, and checksums of the tables
+//     annotations.json  manifest.csv  SHA256SUMS    tables of all records, and their checksums
 //     shards.json                                   present until the shards are merged
 //     .partial/  .lock                              unfinished files, and the lock of running generators
 //

@@ -226,8 +226,13 @@ options parsed(int argc, const char* const* argv,
     app.add_option("--heightmap-scale", o.heightmap_scale, "Height of a full-scale pixel, metres (1)")
         ->check(number(-1e6, 1e6))
         ->group(scene);
-    app.add_option("--target-size", target_size, "Range of height or diameter, metres (0.4:0.8)")->group(scene);
-    app.add_option("--aspect", aspect, "Range of length relative to the usual one of the shape (0.8:1.25)")
+    app.add_option("--target-size", target_size,
+                   "Range of height or diameter, of a mesh half of its largest extent, metres (0.4:0.8)")
+        ->group(scene);
+    app.add_option(
+           "--aspect", aspect,
+           "Range of a factor on the length of a cylinder or sphere, the width of a cube, the diameter of a cone\n"
+           "(0.8:1.25)")
         ->group(scene);
     app.add_option("--tilt", tilt, "Range of pitch and roll, degrees (-3:3)")->group(scene);
     app.add_option("--burial", burial, "Range of the buried share of the height (0.1:0.3)")->group(scene);
@@ -252,7 +257,9 @@ options parsed(int argc, const char* const* argv,
     app.add_option("--intensity", o.intensity, "Overhead: intensity on a surface that faces the light (4)")
         ->check(number(0, 1e6))
         ->group(rig);
-    app.add_option("--sky", o.sky, "Overhead: ambient intensity (0.05)")->check(number(0, 1e6))->group(rig);
+    app.add_option("--sky", o.sky, "Overhead: light from the upper hemisphere, without shadows (0.05)")
+        ->check(number(0, 1e6))
+        ->group(rig);
     app.add_option("--reflectivity", o.reflectivity, "Reflectivity of targets; seabeds have 0.4 to 0.6 (0.9)")
         ->check(number(0, 1e6))
         ->group(rig);

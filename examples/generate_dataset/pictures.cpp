@@ -4,10 +4,8 @@
 
 #include "../common/png_bytes.hpp"
 #include "draw.hpp"
-#include "formats.hpp"
+#include "image_files.hpp"
 #include "plan_options.hpp"
-#include "record.hpp"
-#include "run_lengths.hpp"
 #include "sonar_pictures.hpp"
 
 namespace generator {
@@ -74,32 +72,17 @@ std::vector<file> files_of_published(const options& o, const plan& p, const shar
     const in::target_label& label = d.labels.targets.front();
     const auto target = in::target_mask(d.labels, label.instance);
     const auto shadow = in::shadow_mask(d.labels, label.instance);
-    std::vector<file> files{{image_path(p.class_name, p.index),
-                             d.gray.empty() ? examples::png_bytes(d.color) : examples::png_bytes(d.gray)},
-                            {mask_path("target", p.index), examples::png_bytes(target)},
-                            {mask_path("shadow", p.index), examples::png_bytes(shadow)},
-                            {mask_path("seabed", p.index), examples::png_bytes(d.labels.seabed)}};
-
-    const double metres = d.geometry.metres_per_pixel;
-    const auto annotation = [&](const std::string& category, const char* of, const in::rect& box, std::int64_t area,
-                                const auto& mask) {
-        return json{{"category", category},
-                    {"mask", of},
-                    {"bbox", {box.x0, box.y0, box.width(), box.height()}},
-                    {"bbox_m", {box.x0 * metres, box.y0 * metres, box.width() * metres, box.height() * metres}},
-                    {"area", area},
-                    {"segmentation", {{"size", {o.size, o.size}}, {"counts", run_lengths(mask, box)}}}};
-    };
-    json record{{"id", p.index}};
-    record["files"] = {entry_of("image", files[0]), entry_of("target_mask", files[1]),
-                       entry_of("shadow_mask", files[2]), entry_of("seabed_mask", files[3])};
-    add_formats(o.formats, p.index, d.values, files, record);
-    record["size"] = o.size;
-    record["annotations"] = {annotation(p.class_name, "target_mask", label.box, label.area, target),
-                             annotation("shadow", "shadow_mask", label.shadow_box, label.shadow_area, shadow)};
-    record["parameters"] = parameters_of(o, p, d);
-    files.push_back({record_path(p.index), record_text(record)});
-    return files;
+    const glm::dvec2 metres(d.geometry.metres_per_pixel);
+    return files_of(o, {p.index,
+                        p.class_name,
+                        d.gray.empty() ? examples::png_bytes(d.color) : examples::png_bytes(d.gray),
+                        examples::png_bytes(target),
+                        examples::png_bytes(shadow),
+                        examples::png_bytes(d.labels.seabed),
+                        d.values,
+                        {annotation_of(p.class_name, "target_mask", label.box, label.area, target, metres),
+                         annotation_of("shadow", "shadow_mask", label.shadow_box, label.shadow_area, shadow, metres)},
+                        parameters_of(o, p, d)});
 }
 
 }  // namespace

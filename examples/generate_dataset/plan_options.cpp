@@ -44,7 +44,7 @@ bool is_bookkeeping(const std::string& column) {
     return false;
 }
 
-/// Columns of a target's size and heading, named as in tables of targets.
+/// Columns that tables of targets give, too: a plan may have them in any recipe.
 bool is_of_target(const std::string& column) {
     for (const char* const name : {"aspect_deg", "orientation_deg", "length_m", "width_m", "height_m"})
         if (column == name) return true;
@@ -183,7 +183,8 @@ std::vector<double> parse_aspects(const std::string& text) {
     const double low = number(std::string_view(text).substr(0, first)),
                  step = number(std::string_view(text).substr(first + 1, second - first - 1)),
                  high = number(std::string_view(text).substr(second + 1));
-    if (!(step >= 0.01) || high < low) throw std::invalid_argument(usage + "; the step is 0.01 at least");
+    if (!(step >= 0.01)) throw std::invalid_argument(usage + "; the step is 0.01 at least");
+    if (high < low) throw std::invalid_argument(usage + "; the last is not below the first");
     // Multiplied rather than accumulated, so that rounding does not lose the last aspect.
     for (int i = 0; low + i * step <= high + 1e-9; ++i) aspects.push_back(low + i * step);
     return aspects;

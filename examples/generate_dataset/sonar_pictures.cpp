@@ -2,17 +2,15 @@
 #include "sonar_pictures.hpp"
 
 #include "../common/png_bytes.hpp"
-#include "formats.hpp"
+#include "image_files.hpp"
 #include "plan_options.hpp"
-#include "record.hpp"
-#include "run_lengths.hpp"
 #include "sonar_draw.hpp"
 
 namespace generator {
 
 namespace {
 
-/// Limit of redraws of an image whose target shows less than --visible-share.
+/// Upper bound of draws of an image, the first included, while its target shows less than --visible-share.
 constexpr std::uint32_t max_attempts = 8;
 
 in::image<std::uint8_t> union_of(const in::image<std::uint8_t>& a, const in::image<std::uint8_t>& b) {
@@ -69,34 +67,17 @@ std::vector<file> files_of_sonar(const options& o, std::uint64_t index, const vi
         const in::target_label& label = d.labels.targets[i];
         const bool labelled = i < p.targets.size();
         const auto own = in::target_mask(d.labels, label.instance), dark = in::shadow_mask(d.labels, label.instance);
-        const auto add = [&](const std::string& category, const char* of, const in::rect& box, std::int64_t area,
-                             const auto& mask) {
-            const glm::dvec2 m = d.metres_per_pixel;
-            annotations.push_back({{"category", category},
-                                   {"mask", labelled && alone_in_picture ? of : ""},
-                                   {"bbox", {box.x0, box.y0, box.width(), box.height()}},
-                                   {"bbox_m", {box.x0 * m.x, box.y0 * m.y, box.width() * m.x, box.height() * m.y}},
-                                   {"area", area},
-                                   {"segmentation", {{"size", {o.size, o.size}}, {"counts", run_lengths(mask, box)}}}});
-        };
-        add(labelled ? label.class_name : clutter_class, "target_mask", label.box, label.area, own);
-        add("shadow", "shadow_mask", label.shadow_box, label.shadow_area, dark);
+        const auto file_if_alone = [&](const char* name) { return labelled && alone_in_picture ? name : ""; };
+        annotations.push_back(annotation_of(labelled ? label.class_name : clutter_class, file_if_alone("target_mask"),
+                                            label.box, label.area, own, d.metres_per_pixel));
+        annotations.push_back(annotation_of("shadow", file_if_alone("shadow_mask"), label.shadow_box, label.shadow_area,
+                                            dark, d.metres_per_pixel));
         if (labelled) {
             target = union_of(target, own), shadow = union_of(shadow, dark);
             target_area += label.area, shadow_area += label.shadow_area;
         }
     }
 
-    std::vector<file> files{{image_path(p.class_name, index), examples::png_bytes(d.gray)},
-                            {mask_path("target", index), examples::png_bytes(target)},
-                            {mask_path("shadow", index), examples::png_bytes(shadow)},
-                            {mask_path("seabed", index), examples::png_bytes(d.labels.seabed)}};
-    json record{{"id", index}};
-    record["files"] = {entry_of("image", files[0]), entry_of("target_mask", files[1]),
-                       entry_of("shadow_mask", files[2]), entry_of("seabed_mask", files[3])};
-    add_formats(o.formats, index, d.values, files, record);
-    record["size"] = o.size;
-    record["annotations"] = annotations;
     json parameters = columns_of_options(o);
     parameters["attempt"] = attempt;
     parameters.update(sampled);
@@ -119,9 +100,9 @@ std::vector<file> files_of_sonar(const options& o, std::uint64_t index, const vi
     parameters["visible_share"] = known(shown);
     parameters["target_area_px"] = target_area;
     parameters["shadow_area_px"] = shadow_area;
-    record["parameters"] = parameters;
-    files.push_back({record_path(index), record_text(record)});
-    return files;
+    return files_of(
+        o, {index, p.class_name, examples::png_bytes(d.gray), examples::png_bytes(target), examples::png_bytes(shadow),
+            examples::png_bytes(d.labels.seabed), d.values, annotations, parameters});
 }
 
 }  // namespace generator

@@ -112,7 +112,7 @@ def main():
         few = []
         for seed in range(5):
             g = np.random.default_rng(seed)
-            drawn = np.concatenate([g.choice(np.flatnonzero(is_bare), 40, False) for is_bare in (classes < 2, classes == 2)])
+            drawn = np.concatenate([g.choice(np.flatnonzero(group), 40, False) for group in (classes < 2, classes == 2)])
             others = np.setdiff1d(np.arange(len(classes)), drawn)
             few.append(object_or_bare(classifier, rows[drawn], classes[drawn], rows[others], classes[others]))
         cells, three = ["{:.3f} / {:.3f}".format(*np.mean(few, axis=0))], []

@@ -2487,6 +2487,9 @@ constexpr rect intersect(const rect& a, const rect& b) {
 //     measured  f.pass(view) reads the whole image and returns a function as below
 //     pixel     f(pixel), f(pixel, x, y), or f.pass() that returns such a function   -> pixel
 //
+// The function of a measured filter must not refer to the view: pixels may be replaced while it runs, and the image may
+// no longer exist. A filter that reads other pixels is an image filter.
+//
 // `pass` returns a value, which is copied for each band of rows: it may keep state between pixels. It may process up to
 // run_length adjacent pixels at once by `row(from, to, count, x, y)`, to[i] = fn(from[i], x + i, y), where `to` may be
 // `from`. Passes that need the image's origin and size implement `prepare(area)`, called before the first pixel; it may
@@ -5259,7 +5262,8 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
     using pixel = pass_result<Pass, typename std::remove_cvref_t<Source>::value_type>;
     constexpr bool clean = std::is_same_v<Pass, untouched>;
     if constexpr (image_filter<F, pixel>) {
-        // Not a view, which a callable that takes anything would accept, and write to.
+        // Only an image is passed on: a callable of any type would also accept a view and write to the caller's
+        // pixels.
         if constexpr (clean && std::conjunction_v<std::is_same<std::remove_cvref_t<Source>, image<pixel>>,
                                                   std::is_invocable<const F&, Source>>) {
             return run_stages(stage(std::forward<Source>(source)), untouched{}, run, rest...);
@@ -6558,7 +6562,7 @@ namespace detail::inline INSONIFY_FLAGS {
 class triangle_lattice {
   public:
     /// The lattice of the first triangle, whose longest edge is the diagonal of a cell. The first axis is the one
-    /// closer to x; both point to larger coordinates.
+    /// with the larger x component, which is positive, as is the y component of the second.
     static std::optional<triangle_lattice> of(const mesh& m) {
         if (m.triangles.size() < 2) return std::nullopt;
         glm::dvec2 corner[3];
@@ -8676,9 +8680,12 @@ template <class M>
 concept sampled = requires(const M& m) {
     sampler_of(m);
 };
-/// A type with a part of the members of a model, which gets a readable error.
+/// A height as a function of x and y.
 template <class M>
-concept incomplete_model = !model<M> && (labelled<M> || sampled<M>);
+concept called_by_point = std::invocable<const M&, double, double>;
+/// A type with a part of the members of a model, or a lambda in its stead, which get a readable error.
+template <class M>
+concept incomplete_model = !model<M> && (labelled<M> || sampled<M> || called_by_point<M>);
 
 }  // namespace detail
 
@@ -11263,7 +11270,7 @@ enum class across_track {
 struct ping {
     glm::dvec3 position{0, 0, 5};  ///< of the sonar in the world, metres; z above the datum, heave included
     double yaw = 0;                ///< radians: 0 travels towards +y, with starboard at +x; counter-clockwise
-    double pitch = 0;              ///< radians, positive with the bow up: tilts the fan forward, below +-80 degrees
+    double pitch = 0;              ///< radians, positive with the bow up: tilts the fan forward, within +-80 degrees
     double roll = 0;               ///< radians, positive with starboard down: turns the beams within the fan
 };
 
@@ -11354,7 +11361,7 @@ std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
     return track;
 }
 
-/// Where recording.hpp is not included: an error of the compiler that names it.
+/// Fails to compile, with a message that names recording.hpp, where that header is not included.
 template <std::same_as<scene> Scene, across_track Axis>
 void render(const Scene&, const side_scan_rig<Axis>&) {
     static_assert(sizeof(Scene) == 0, "a recording needs #include <insonify/sonar/side_scan/recording.hpp>");
@@ -11364,9 +11371,9 @@ void render(const Scene&, const side_scan_rig<Axis>&) {
 /// the sonar. The fan is the plane u = 0, which pitch tilts from the vertical.
 class ping_frame {
   public:
-    ping_frame(const ping& p, side looks) : position_(p.position) {
+    ping_frame(const ping& p, side facing) : position_(p.position) {
         const auto [sine, cosine] = numeric::sin_cos(p.yaw);
-        const double sign = looks == side::starboard ? 1 : -1;
+        const double sign = facing == side::starboard ? 1 : -1;
         across_ = {sign * cosine, sign * sine};
         along_ = {-sine, cosine};
         const numeric::sine_cosine pitch = numeric::sin_cos(p.pitch), roll = numeric::sin_cos(p.roll);
@@ -11380,7 +11387,7 @@ class ping_frame {
     bool is_level() const { return sine_pitch_ == 0; }
     double sine_pitch() const { return sine_pitch_; }
     double cosine_pitch() const { return cosine_pitch_; }
-    /// Of the angle by which the side that it faces is rolled down.
+    /// Of the roll, positive with the side that it faces down.
     double sine_roll() const { return sine_roll_; }
     double cosine_roll() const { return cosine_roll_; }
 
@@ -18845,7 +18852,7 @@ class overhead_painter {
             bottom_.sample(scene_.seabed, rig.position, ground, spacing, ex);
         };
         sample(range);
-        // Through gaps, targets below the seabed may be seen, which ground farther towards the light shades.
+        // Targets below the seabed are seen through its gaps, and ground farther towards the light shades them.
         const double deepest = casts && bottom_.is_open() ? lowest_target() : range.lowest;
         if (deepest < range.lowest) sample({deepest, range.highest});
         seabed::detail::require_within(range, static_cast<double>(bottom_.lowest()),
@@ -24822,7 +24829,7 @@ struct range_bins {
     float ping_spacing;  ///< metres
     float first_range, range;
     int bins;
-    side looks;
+    side facing;
     bool counts_time;  ///< slant range
 
     template <across_track Axis>
@@ -24832,7 +24839,7 @@ struct range_bins {
           first_range(rig.first_range),
           range(rig.range),
           bins(rig.bins),
-          looks(rig.side),
+          facing(rig.side),
           counts_time(Axis == across_track::slant_range) {}
 
     INSONIFY_MEMBER double bin() const {
@@ -26517,7 +26524,7 @@ class bin_factors {
         return values_;
     }
 
-    /// In place of infinity, of which 0 would make NaN.
+    /// Upper bound of factors and intensities: infinity times 0 would be NaN.
     static constexpr float largest = (std::numeric_limits<float>::max)();
 
   private:
@@ -26536,9 +26543,11 @@ class recorder {
         : scene_(s), track_(track), window_(window), options_(options), equation_(options.equation) {
         materials_ = checked_materials(s, options);
         for (std::size_t i = 0; i < track.size(); ++i) validate(track[i], element_name("track", i));
-        require(equation_.pulse_length() <= window.bins * window.bin(), "pulse.length", equation_.pulse_length(),
-                "at most the metres of range that are recorded");
-        out_.rows.side = window.looks;
+        // Either end is a rounded float, so that the difference may be less than the metres that were meant.
+        const double recorded = static_cast<double>(window.range) - static_cast<double>(window.first_range);
+        require(equation_.pulse_length() <= recorded + 0x1p-23 * static_cast<double>(window.range), "pulse.length",
+                equation_.pulse_length(), "at most the metres of range that are recorded");
+        out_.rows.side = window.facing;
         out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(window));
         targets_ = sliced_targets(s);
         const auto height = static_cast<int>(track.size());
@@ -26584,7 +26593,7 @@ class recorder {
             const std::size_t count = (std::min)(leg, track_.size() - start);
             dynamic_array<ping_frame> frames;
             frames.reserve(count);
-            for (std::size_t i = 0; i < count; ++i) frames.push_back({track_[start + i], window_.looks});
+            for (std::size_t i = 0; i < count; ++i) frames.push_back({track_[start + i], window_.facing});
             double begin = tracer::reach(window_, cell);
             for (const ping_frame& p : frames)
                 begin = (std::min)(begin, tracer::start(window_, cell, relief, p, targets_));
@@ -26900,8 +26909,8 @@ struct speckle_draw_kernel {
 class speckle_field {
   public:
     /// @param along, across  correlation lengths of intensities, pings and bins
-    speckle_field(std::uint64_t seed, side looks, float along, float across, int bins)
-        : noise_(seed, looks, speckle_stream::field),
+    speckle_field(std::uint64_t seed, side facing, float along, float across, int bins)
+        : noise_(seed, facing, speckle_stream::field),
           bins_(static_cast<std::size_t>(bins)),
           across_(intensity_taps(static_cast<double>(across))),
           along_(intensity_taps(static_cast<double>(along))) {}
@@ -26944,9 +26953,9 @@ class speckle_field {
 class speckle_texture {
   public:
     /// @param length  distance between nodes, pings and bins
-    speckle_texture(std::uint64_t seed, side looks, float length)
-        : nodes_(seed, looks, speckle_stream::texture),
-          choices_(seed, looks, speckle_stream::choice),
+    speckle_texture(std::uint64_t seed, side facing, float length)
+        : nodes_(seed, facing, speckle_stream::texture),
+          choices_(seed, facing, speckle_stream::choice),
           frequency_(1 / static_cast<double>(length)) {}
 
     float operator()(std::int64_t ping, std::uint32_t bin, float shape) const {
@@ -27139,15 +27148,15 @@ frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex
         r.image = with_speckle(r.image.view(), r.labels.seabed.view(), completed, r.rows, ex);
         return r;
     }
-    const auto channel = [&](side looks, int left, int width) {
-        const bool is_port = looks == side::port;
+    const auto channel = [&](side facing, int left, int width) {
+        const bool is_port = facing == side::port;
         const auto part = [&](const auto& picture) {
             const std::remove_cvref_t<decltype(picture)> cut(picture.view().part(left, 0, width, picture.height()));
             return is_port ? mirrored(cut) : cut;
         };
         const auto mean = part(r.image);
         const auto types = part(r.labels.seabed);
-        const auto noisy = with_speckle(mean.view(), types.view(), completed, {r.rows.first, r.rows.step, looks}, ex);
+        const auto noisy = with_speckle(mean.view(), types.view(), completed, {r.rows.first, r.rows.step, facing}, ex);
         return is_port ? mirrored(noisy) : noisy;
     };
     r.image = beside(channel(side::port, 0, port), channel(side::starboard, port, r.image.width() - port));

@@ -7,6 +7,7 @@
 #include <insonify/seabed/model.hpp>
 #include <insonify/seabed/none.hpp>
 
+#include <concepts>
 #include <memory>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -118,9 +119,12 @@ template <class M>
 concept sampled = requires(const M& m) {
     sampler_of(m);
 };
-/// A type with a part of the members of a model, which gets a readable error.
+/// A height as a function of x and y.
 template <class M>
-concept incomplete_model = !model<M> && (labelled<M> || sampled<M>);
+concept called_by_point = std::invocable<const M&, double, double>;
+/// A type with a part of the members of a model, or a lambda in its stead, which get a readable error.
+template <class M>
+concept incomplete_model = !model<M> && (labelled<M> || sampled<M> || called_by_point<M>);
 
 }  // namespace detail
 

@@ -170,15 +170,15 @@ frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex
         r.image = with_speckle(r.image.view(), r.labels.seabed.view(), completed, r.rows, ex);
         return r;
     }
-    const auto channel = [&](side looks, int left, int width) {
-        const bool is_port = looks == side::port;
+    const auto channel = [&](side facing, int left, int width) {
+        const bool is_port = facing == side::port;
         const auto part = [&](const auto& picture) {
             const std::remove_cvref_t<decltype(picture)> cut(picture.view().part(left, 0, width, picture.height()));
             return is_port ? mirrored(cut) : cut;
         };
         const auto mean = part(r.image);
         const auto types = part(r.labels.seabed);
-        const auto noisy = with_speckle(mean.view(), types.view(), completed, {r.rows.first, r.rows.step, looks}, ex);
+        const auto noisy = with_speckle(mean.view(), types.view(), completed, {r.rows.first, r.rows.step, facing}, ex);
         return is_port ? mirrored(noisy) : noisy;
     };
     r.image = beside(channel(side::port, 0, port), channel(side::starboard, port, r.image.width() - port));

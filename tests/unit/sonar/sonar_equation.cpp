@@ -222,6 +222,16 @@ TEST_CASE("A pulse lengthens echoes by its length and preserves energy") {
     }
 }
 
+TEST_CASE("A pulse may be as long as the recorded range, also where floats round its ends") {
+    const auto record = [](float first, float range, int bins, float length) {
+        const in::side_scan rig{.first_range = first, .range = range, .pings = 1, .bins = bins};
+        return in::render(level_bottom(), rig, in::record_options<>{}.with(in::sonar_equation{in::pulse{length}}));
+    };
+    CHECK_NOTHROW(record(0, 1, 49, 1));  // 1.0 / 49 * 49 is below 1
+    for (const float first : {1.3f, 17.7f, 60.0f, 999.9f}) CHECK_NOTHROW(record(first, first + 0.01f, 128, 0.01f));
+    CHECK_THROWS_WITH(record(0, 1, 49, 1.001f), ContainsSubstring("metres of range"));
+}
+
 TEST_CASE("The water column holds the noise floor alone, scaled by the gain") {
     const in::sonar_equation equation{in::spreading_loss{}, in::absorption{322}, in::noise_floor{1e-9f},
                                       in::time_varied_gain{40, 322}};

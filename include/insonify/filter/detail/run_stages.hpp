@@ -165,7 +165,8 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
     using pixel = pass_result<Pass, typename std::remove_cvref_t<Source>::value_type>;
     constexpr bool clean = std::is_same_v<Pass, untouched>;
     if constexpr (image_filter<F, pixel>) {
-        // Not a view, which a callable that takes anything would accept, and write to.
+        // Only an image is passed on: a callable of any type would also accept a view and write to the caller's
+        // pixels.
         if constexpr (clean && std::conjunction_v<std::is_same<std::remove_cvref_t<Source>, image<pixel>>,
                                                   std::is_invocable<const F&, Source>>) {
             return run_stages(stage(std::forward<Source>(source)), untouched{}, run, rest...);

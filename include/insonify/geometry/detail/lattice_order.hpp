@@ -24,7 +24,7 @@ namespace detail::inline INSONIFY_FLAGS {
 class triangle_lattice {
   public:
     /// The lattice of the first triangle, whose longest edge is the diagonal of a cell. The first axis is the one
-    /// closer to x; both point to larger coordinates.
+    /// with the larger x component, which is positive, as is the y component of the second.
     static std::optional<triangle_lattice> of(const mesh& m) {
         if (m.triangles.size() < 2) return std::nullopt;
         glm::dvec2 corner[3];

@@ -82,8 +82,8 @@ struct speckle_draw_kernel {
 class speckle_field {
   public:
     /// @param along, across  correlation lengths of intensities, pings and bins
-    speckle_field(std::uint64_t seed, side looks, float along, float across, int bins)
-        : noise_(seed, looks, speckle_stream::field),
+    speckle_field(std::uint64_t seed, side facing, float along, float across, int bins)
+        : noise_(seed, facing, speckle_stream::field),
           bins_(static_cast<std::size_t>(bins)),
           across_(intensity_taps(static_cast<double>(across))),
           along_(intensity_taps(static_cast<double>(along))) {}
@@ -126,9 +126,9 @@ class speckle_field {
 class speckle_texture {
   public:
     /// @param length  distance between nodes, pings and bins
-    speckle_texture(std::uint64_t seed, side looks, float length)
-        : nodes_(seed, looks, speckle_stream::texture),
-          choices_(seed, looks, speckle_stream::choice),
+    speckle_texture(std::uint64_t seed, side facing, float length)
+        : nodes_(seed, facing, speckle_stream::texture),
+          choices_(seed, facing, speckle_stream::choice),
           frequency_(1 / static_cast<double>(length)) {}
 
     float operator()(std::int64_t ping, std::uint32_t bin, float shape) const {

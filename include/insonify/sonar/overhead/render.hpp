@@ -133,7 +133,7 @@ class overhead_painter {
             bottom_.sample(scene_.seabed, rig.position, ground, spacing, ex);
         };
         sample(range);
-        // Through gaps, targets below the seabed may be seen, which ground farther towards the light shades.
+        // Targets below the seabed are seen through its gaps, and ground farther towards the light shades them.
         const double deepest = casts && bottom_.is_open() ? lowest_target() : range.lowest;
         if (deepest < range.lowest) sample({deepest, range.highest});
         seabed::detail::require_within(range, static_cast<double>(bottom_.lowest()),

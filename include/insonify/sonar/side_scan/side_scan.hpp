@@ -31,7 +31,7 @@ enum class across_track {
 struct ping {
     glm::dvec3 position{0, 0, 5};  ///< of the sonar in the world, metres; z above the datum, heave included
     double yaw = 0;                ///< radians: 0 travels towards +y, with starboard at +x; counter-clockwise
-    double pitch = 0;              ///< radians, positive with the bow up: tilts the fan forward, below +-80 degrees
+    double pitch = 0;              ///< radians, positive with the bow up: tilts the fan forward, within +-80 degrees
     double roll = 0;               ///< radians, positive with starboard down: turns the beams within the fan
 };
 
@@ -122,7 +122,7 @@ std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
     return track;
 }
 
-/// Where recording.hpp is not included: an error of the compiler that names it.
+/// Fails to compile, with a message that names recording.hpp, where that header is not included.
 template <std::same_as<scene> Scene, across_track Axis>
 void render(const Scene&, const side_scan_rig<Axis>&) {
     static_assert(sizeof(Scene) == 0, "a recording needs #include <insonify/sonar/side_scan/recording.hpp>");
@@ -132,9 +132,9 @@ void render(const Scene&, const side_scan_rig<Axis>&) {
 /// the sonar. The fan is the plane u = 0, which pitch tilts from the vertical.
 class ping_frame {
   public:
-    ping_frame(const ping& p, side looks) : position_(p.position) {
+    ping_frame(const ping& p, side facing) : position_(p.position) {
         const auto [sine, cosine] = numeric::sin_cos(p.yaw);
-        const double sign = looks == side::starboard ? 1 : -1;
+        const double sign = facing == side::starboard ? 1 : -1;
         across_ = {sign * cosine, sign * sine};
         along_ = {-sine, cosine};
         const numeric::sine_cosine pitch = numeric::sin_cos(p.pitch), roll = numeric::sin_cos(p.roll);
@@ -148,7 +148,7 @@ class ping_frame {
     bool is_level() const { return sine_pitch_ == 0; }
     double sine_pitch() const { return sine_pitch_; }
     double cosine_pitch() const { return cosine_pitch_; }
-    /// Of the angle by which the side that it faces is rolled down.
+    /// Of the roll, positive with the side that it faces down.
     double sine_roll() const { return sine_roll_; }
     double cosine_roll() const { return cosine_roll_; }
 

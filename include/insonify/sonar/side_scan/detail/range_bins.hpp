@@ -17,7 +17,7 @@ struct range_bins {
     float ping_spacing;  ///< metres
     float first_range, range;
     int bins;
-    side looks;
+    side facing;
     bool counts_time;  ///< slant range
 
     template <across_track Axis>
@@ -27,7 +27,7 @@ struct range_bins {
           first_range(rig.first_range),
           range(rig.range),
           bins(rig.bins),
-          looks(rig.side),
+          facing(rig.side),
           counts_time(Axis == across_track::slant_range) {}
 
     INSONIFY_MEMBER double bin() const {

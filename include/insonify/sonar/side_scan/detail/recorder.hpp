@@ -37,7 +37,7 @@ class bin_factors {
         return values_;
     }
 
-    /// In place of infinity, of which 0 would make NaN.
+    /// Upper bound of factors and intensities: infinity times 0 would be NaN.
     static constexpr float largest = (std::numeric_limits<float>::max)();
 
   private:
@@ -56,9 +56,11 @@ class recorder {
         : scene_(s), track_(track), window_(window), options_(options), equation_(options.equation) {
         materials_ = checked_materials(s, options);
         for (std::size_t i = 0; i < track.size(); ++i) validate(track[i], element_name("track", i));
-        require(equation_.pulse_length() <= window.bins * window.bin(), "pulse.length", equation_.pulse_length(),
-                "at most the metres of range that are recorded");
-        out_.rows.side = window.looks;
+        // Either end is a rounded float, so that the difference may be less than the metres that were meant.
+        const double recorded = static_cast<double>(window.range) - static_cast<double>(window.first_range);
+        require(equation_.pulse_length() <= recorded + 0x1p-23 * static_cast<double>(window.range), "pulse.length",
+                equation_.pulse_length(), "at most the metres of range that are recorded");
+        out_.rows.side = window.facing;
         out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(window));
         targets_ = sliced_targets(s);
         const auto height = static_cast<int>(track.size());
@@ -104,7 +106,7 @@ class recorder {
             const std::size_t count = (std::min)(leg, track_.size() - start);
             dynamic_array<ping_frame> frames;
             frames.reserve(count);
-            for (std::size_t i = 0; i < count; ++i) frames.push_back({track_[start + i], window_.looks});
+            for (std::size_t i = 0; i < count; ++i) frames.push_back({track_[start + i], window_.facing});
             double begin = tracer::reach(window_, cell);
             for (const ping_frame& p : frames)
                 begin = (std::min)(begin, tracer::start(window_, cell, relief, p, targets_));
