@@ -2473,6 +2473,12 @@ constexpr rect intersect(const rect& a, const rect& b) {
     return {(std::max)(a.x0, b.x0), (std::max)(a.y0, b.y0), (std::min)(a.x1, b.x1), (std::min)(a.y1, b.y1)};
 }
 
+/// The smallest rectangle that contains both.
+constexpr rect merge(const rect& a, const rect& b) {
+    if (a.empty() || b.empty()) return a.empty() ? b : a;
+    return {(std::min)(a.x0, b.x0), (std::min)(a.y0, b.y0), (std::max)(a.x1, b.x1), (std::max)(a.y1, b.y1)};
+}
+
 }  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
@@ -7291,6 +7297,9 @@ class shared_mesh {
   public:
     /// No triangles.
     shared_mesh() : facts_(std::make_shared<detail::mesh_facts>()) {}
+    /// Moving copies, so that no object is ever without a mesh.
+    shared_mesh(const shared_mesh&) = default;
+    shared_mesh& operator=(const shared_mesh&) = default;
     /// @throws invalid_input for indices or normals that don't match the positions
     INSONIFY_MEMBER shared_mesh(mesh m) : facts_(detail::facts_of(std::move(m))) {}
     /// The mesh of a shape with a `to_mesh`. Primitives skip the analysis, because their type tells its results; a
@@ -8389,6 +8398,12 @@ inline void require_finite(const height_range& range) {
     require(is_empty || numeric::is_finite(range.highest - range.lowest), "range() of the seabed",
             numeric::is_finite(range.highest) ? range.lowest : range.highest,
             "finite heights that it never leaves (a model without `range()` states none)");
+}
+
+/// @throws invalid_input for a sonar below all of the seabed, as where a depth is given for a height
+inline void require_above(const height_range& range, std::string_view name, double altitude) {
+    require(range.empty() || altitude > range.lowest, name, altitude,
+            "above the seabed's lowest height, " + to_text(range.lowest + 0.0));  // not -0
 }
 
 /// The range of floats that are computed within a range: rounding may exceed it.
@@ -11963,16 +11978,23 @@ class tile_runs {
     }
 
     /// Calls `visit(tile, run)` for every run and each tile that it touches, in order.
+    /// @param all  contains the runs' tiles, which are counted in it row by row
     template <class Visit>
-    void for_each(const tile_grid& grid, const Visit& visit) const {
+    void for_each(const rect& all, const Visit& visit) const {
         for (const entry& e : entries_) {
             const rect tiles = e.tiles.tiles();
             for (int row = tiles.y0; row < tiles.y1; ++row)
                 for (int column = tiles.x0; column < tiles.x1; ++column)
-                    visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
-                              static_cast<std::size_t>(column),
+                    visit(static_cast<std::size_t>(row - all.y0) * static_cast<std::size_t>(all.width()) +
+                              static_cast<std::size_t>(column - all.x0),
                           e.run);
         }
+    }
+
+    /// The smallest rectangle of tiles that contains those of all runs and `other`.
+    rect bounds(rect other) const {
+        for (const entry& e : entries_) other = merge(other, e.tiles.tiles());
+        return other;
     }
 
     /// Adds `offset` to all ids from `first` on. @pre no run contains ids both below and above it
@@ -11995,14 +12017,16 @@ class tile_bins {
     tile_bins() = default;
 
     /// @param chunks  the runs of all chunks, in submission order
+    /// @param all     contains their tiles
     template <executor E>
-    tile_bins(std::span<const tile_runs> chunks, const tile_grid& grid, E& ex) : first_(grid.count() + 1, 0) {
+    tile_bins(std::span<const tile_runs> chunks, const rect& all, E& ex) {
         // How many runs each chunk has in each tile; then, where in the tile it puts the next one.
-        const std::size_t tiles = grid.count();
+        const std::size_t tiles = static_cast<std::size_t>(all.width()) * static_cast<std::size_t>(all.height());
+        first_.assign(tiles + 1, 0);
         dynamic_array<std::uint32_t> positions(chunks.size() * tiles, 0);
         const auto of_chunk = [&](std::size_t chunk) { return std::span(positions).subspan(chunk * tiles, tiles); };
         ex.bulk(chunks.size(), [&](std::size_t chunk) {
-            chunks[chunk].for_each(grid, [&](std::size_t tile, const triangle_run&) { ++of_chunk(chunk)[tile]; });
+            chunks[chunk].for_each(all, [&](std::size_t tile, const triangle_run&) { ++of_chunk(chunk)[tile]; });
         });
         dynamic_array<std::uint32_t> next(tiles, 0);
         for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk)
@@ -12013,7 +12037,7 @@ class tile_bins {
 
         runs_ = uninitialized_array<triangle_run>(first_.back(), memory_of(ex));
         ex.bulk(chunks.size(), [&](std::size_t chunk) {
-            chunks[chunk].for_each(grid, [&](std::size_t tile, const triangle_run& run) {
+            chunks[chunk].for_each(all, [&](std::size_t tile, const triangle_run& run) {
                 runs_[first_[tile] + of_chunk(chunk)[tile]++] = run;
             });
         });
@@ -13511,7 +13535,7 @@ class screen_mesh {
             runs.push_back(std::move(c.runs));
             stats_ += c.stats;
         }
-        bins_ = tile_bins(runs, tiles, ex);
+        bins_ = tile_bins(runs, rect{0, 0, tiles.columns, tiles.rows}, ex);
     }
 
     const draw_stats& stats() const { return stats_; }
@@ -16161,10 +16185,17 @@ class plane_caster {
                 tile_assembly_kernel{vertices_.data(), c.mesh, to_plane, first, last, tiles, chunks[first / grain]},
                 level);
         });
-        bins_ = insonify::detail::tile_bins(chunks, insonify::detail::tile_grid(tiles.columns, tiles.rows, 0), ex);
+        for (const insonify::detail::tile_runs& chunk : chunks) tiles_ = chunk.bounds(tiles_);
+        bins_ = insonify::detail::tile_bins(chunks, tiles_, ex);
     }
 
-    std::span<const insonify::detail::triangle_run> bin(std::size_t tile) const { return bins_[tile]; }
+    /// Contains all tiles that the caster touches.
+    const rect& tiles() const { return tiles_; }
+    /// The triangles that touch one of them.
+    std::span<const insonify::detail::triangle_run> bin(int column, int row) const {
+        return bins_[static_cast<std::size_t>(row - tiles_.y0) * static_cast<std::size_t>(tiles_.width()) +
+                     static_cast<std::size_t>(column - tiles_.x0)];
+    }
     /// Prefetches the corners of a triangle that may be tested soon.
     INSONIFY_INLINE void prefetch(std::uint32_t triangle) const {
         if (triangle >= triangles_.size()) return;
@@ -16175,7 +16206,8 @@ class plane_caster {
   private:
     std::span<const glm::uvec3> triangles_;
     insonify::detail::uninitialized_array<plane_vertex> vertices_;
-    insonify::detail::tile_bins bins_;
+    rect tiles_;
+    insonify::detail::tile_bins bins_;  ///< of the triangles by tile
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
@@ -16559,16 +16591,48 @@ std::pair<glm::dvec2, glm::dvec2> extent_on(const light_plane& plane, const Corn
     return {lower, upper};
 }
 
+/// The casters that touch each tile of a plane.
+class tile_occupants {
+  public:
+    static constexpr std::uint32_t none = invalid_id, several = invalid_id - 1;
+    struct occupancy {
+        std::uint32_t tile, caster;
+    };
+
+    tile_occupants() = default;
+    /// @param all  in order of casters
+    tile_occupants(std::size_t tiles, std::span<const occupancy> all)
+        : only_(tiles, none), starts_(tiles + 1, 0), casters_(all.size()) {
+        for (const occupancy& o : all) {
+            ++starts_[o.tile + 1];
+            only_[o.tile] = only_[o.tile] == none ? o.caster : several;
+        }
+        for (std::size_t tile = 0; tile < tiles; ++tile) starts_[tile + 1] += starts_[tile];
+        dynamic_array<std::size_t> next = starts_;
+        for (const occupancy& o : all) casters_[next[o.tile]++] = o.caster;
+    }
+
+    /// In order.
+    std::span<const std::uint32_t> of(std::size_t tile) const {
+        return std::span(casters_).subspan(starts_[tile], starts_[tile + 1] - starts_[tile]);
+    }
+    /// The only caster of a tile, or `none`, or `several`.
+    std::uint32_t only(std::size_t tile) const { return only_[tile]; }
+
+  private:
+    dynamic_array<std::uint32_t> only_;
+    dynamic_array<std::size_t> starts_;  ///< of the tiles, then the number of all
+    dynamic_array<std::uint32_t> casters_;
+};
+
 /// One plane.
 struct tiled_plane {
-    static constexpr std::uint32_t no_caster = invalid_id, several_casters = invalid_id - 1;
-
     light_plane plane;
     plane_tiles tiles;
     float error = 0;  ///< of coordinates on the plane
     dynamic_array<plane_caster> casters;
-    glm::dvec2 scale{};                       ///< tiles per unit
-    dynamic_array<std::uint32_t> occupant{};  ///< by tile: the only caster that touches it, or one of the constants
+    glm::dvec2 scale{};  ///< tiles per unit
+    tile_occupants occupants{};
 
     /// The tile that contains a point of the plane, or the nearest one.
     std::size_t tile_of(const glm::dvec3& at) const {
@@ -16586,9 +16650,6 @@ struct tiled_plane {
             return glm::ivec2(clamped(in_tiles.x + margin, tiles.columns), clamped(in_tiles.y + margin, tiles.rows));
         };
         return {tile(lower, -0x1p-10), tile(upper, 0x1p-10)};
-    }
-    void occupy(std::size_t tile, std::size_t caster) {
-        occupant[tile] = occupant[tile] == no_caster ? static_cast<std::uint32_t>(caster) : several_casters;
     }
 
   private:
@@ -16623,7 +16684,7 @@ class tiled_planes {
         const tiled_plane* plane;  ///< null where no caster blocks its light
         glm::dvec3 seen;           ///< on the plane, after the division
         std::size_t tile;          ///< among all
-        std::uint32_t occupant;    ///< of the tile
+        std::uint32_t occupant;    ///< of the tile, see tile_occupants::only
     };
     place of(const glm::dvec3& p) const {
         const auto face = static_cast<std::size_t>(near_light_ ? light_plane::face_of(*near_light_, p) : 0);
@@ -16631,7 +16692,7 @@ class tiled_planes {
         if (on.casters.empty()) return {};
         const glm::dvec3 before = on.plane(p), seen = near_light_ ? light_plane::seen(before) : before;
         const std::size_t tile = on.tile_of(seen);
-        return {&on, seen, starts_[face] + tile, on.occupant[tile]};
+        return {&on, seen, starts_[face] + tile, on.occupants.only(tile)};
     }
 
   private:
@@ -16721,8 +16782,8 @@ class points_by_tile {
             const points& some = at[batch];
             for (std::size_t i = 0; i < some.size(); ++i) {
                 const tiled_planes::place over = planes_.of(some[i]);
-                if (over.plane == nullptr || over.occupant == tiled_plane::no_caster) continue;
-                if (over.occupant != tiled_plane::several_casters && over.occupant >= some.casters) continue;
+                if (over.plane == nullptr || over.occupant == tile_occupants::none) continue;
+                if (over.occupant != tile_occupants::several && over.occupant >= some.casters) continue;
                 const glm::dvec2 from = glm::dvec2(over.seen) - over.plane->tiles.lower;
                 found[count] = {static_cast<float>(from.x),
                                 static_cast<float>(from.y),
@@ -16822,7 +16883,7 @@ class exact_occlusion {
         const detail::tiled_plane& plane = planes_.front();
         const detail::ray_feet feet(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
-            if (plane.occupant[tile] == caster || plane.occupant[tile] == no_caster) continue;
+            if (plane.occupants.only(tile) == caster || plane.occupants.of(tile).empty()) continue;
             shared.push_back(feet.of(plane.tiles.lower + plane.tiles.corner(tile), plane.tiles.tile()));
         }
         bulk_ranges(ex, static_cast<std::size_t>(grid.columns - 1), 32, [&](std::size_t first, std::size_t last) {
@@ -16863,9 +16924,6 @@ class exact_occlusion {
     }
 
   private:
-    static constexpr std::uint32_t no_caster = detail::tiled_plane::no_caster,
-                                   several_casters = detail::tiled_plane::several_casters;
-
     /// Upper bound of the absolute coordinates of points. Casters may reach farther.
     static double reach_of(const bounding_box& bounds) {
         double reach = 0;
@@ -16888,9 +16946,10 @@ class exact_occlusion {
         if (is_grid && at.face_light) grids_[own]->decide_own(at, first, last, answers, level_);
         const detail::tiled_plane& state = planes_.front();
         for (std::size_t i = first; i < last; ++i) {
-            const std::uint32_t occupant = state.occupant[state.tile_of(state.plane(at[i]))];
+            const std::uint32_t occupant = state.occupants.only(state.tile_of(state.plane(at[i])));
             into.lit[i] = unknown;
-            if (occupant == no_caster || (occupant != several_casters && occupant >= at.casters)) {
+            if (occupant == detail::tile_occupants::none ||
+                (occupant != detail::tile_occupants::several && occupant >= at.casters)) {
                 into.lit[i] = 1;
             } else if (occupant == own && is_grid) {
                 const decision answer = answers[i - first];
@@ -16946,23 +17005,29 @@ class exact_occlusion {
         tiles.lower -= margin;
         tiles.size += 2 * margin;
         detail::tiled_plane state{plane, tiles, static_cast<float>(error), {}, 1.0 / tiles.tile(), {}};
-        state.occupant.assign(tiles.count(), no_caster);
+        detail::dynamic_array<detail::tile_occupants::occupancy> occupants;
+        const auto occupy = [&](int column, int row, std::size_t caster) {
+            occupants.push_back(
+                {static_cast<std::uint32_t>(row * tiles.columns + column), static_cast<std::uint32_t>(caster)});
+        };
         for (std::size_t i = 0; i < casters_.size(); ++i) {
             const caster& c = casters_[i];
             if (grids_[i]) {
                 state.casters.push_back({});
                 const auto [first, last] = state.tiles_under(c);
                 for (int row = first.y; row <= last.y; ++row)
-                    for (int column = first.x; column <= last.x; ++column)
-                        state.occupy(static_cast<std::size_t>(row * tiles.columns + column), i);
+                    for (int column = first.x; column <= last.x; ++column) occupy(column, row, i);
                 continue;
             }
             insonify::detail::require_indices(c.mesh, ex);
             state.casters.push_back({c, plane, tiles, min_depth, level_, ex});
             const detail::plane_caster& built = state.casters.back();
-            for (std::size_t tile = 0; tile < tiles.count(); ++tile)
-                if (!built.bin(tile).empty()) state.occupy(tile, i);
+            const rect touched = built.tiles();
+            for (int row = touched.y0; row < touched.y1; ++row)
+                for (int column = touched.x0; column < touched.x1; ++column)
+                    if (!built.bin(column, row).empty()) occupy(column, row, i);
         }
+        state.occupants = {tiles.count(), occupants};
         planes_.add(std::move(state));
     }
 
@@ -16970,10 +17035,11 @@ class exact_occlusion {
                    std::span<const points> at, std::span<const results> into) const {
         const auto [state, tile] = planes_.plane_of(tile_number);
         cells.sort(all, at, glm::vec2(state->tiles.corner(tile)), glm::vec2(state->tiles.tile()));
-        for (std::size_t i = 0; i < state->casters.size(); ++i) {
-            const auto number = static_cast<std::uint32_t>(i);
+        const auto row_length = static_cast<std::size_t>(state->tiles.columns);
+        const auto column = static_cast<int>(tile % row_length), row = static_cast<int>(tile / row_length);
+        for (const std::uint32_t number : state->occupants.of(tile)) {
             cells.close(number);
-            if (grids_[i]) {
+            if (grids_[number]) {
                 for (std::size_t k = 0; k < cells.size(); ++k)
                     if (cells.caster[k] == detail::receiver_cells::open) {
                         const detail::batch_index place = cells.place[k];
@@ -16982,16 +17048,16 @@ class exact_occlusion {
                     }
                 continue;
             }
-            const detail::plane_caster& caster = state->casters[i];
-            if (caster.bin(tile).empty()) continue;
-            const shadow::caster& c = casters_[i];
+            const detail::plane_caster& caster = state->casters[number];
+            const shadow::caster& c = casters_[number];
             const auto decide = [&](std::uint32_t triangle, std::size_t k) {
                 const detail::batch_index place = cells.place[k];
                 return is_blocked_by(number, triangle, at[place.batch()][place.point()]);
             };
             insonify::detail::dispatch(
-                detail::occlusion_kernel<std::remove_const_t<decltype(decide)>>{
-                    caster, caster.bin(tile), number, c.may_skip, is_turned(c, *state), state->error, cells, decide},
+                detail::occlusion_kernel<std::remove_const_t<decltype(decide)>>{caster, caster.bin(column, row), number,
+                                                                                c.may_skip, is_turned(c, *state),
+                                                                                state->error, cells, decide},
                 level_);
         }
         for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -18843,6 +18909,7 @@ class overhead_painter {
 
         seabed::height_range range = scene_.seabed.prepare().range();
         seabed::detail::require_finite(range);
+        seabed::detail::require_above(range, "overhead.altitude", static_cast<double>(rig.altitude));
         range = merge(range, {0, 0});
         const auto sample = [&](const seabed::height_range& heights) {
             ground_rect ground = shown_ground(view_, heights);
@@ -22802,7 +22869,7 @@ inline esri_header read_esri_header(survey_reader& in) {
     };
     if (!is_whole(h.columns)) in.fail("ncols is missing or not an integer from 2 to 2^24");
     if (!is_whole(h.rows)) in.fail("nrows is missing or not an integer from 2 to 2^24");
-    if (!has_x || !has_y) in.fail("xllcorner or yllcorner is missing");
+    if (!has_x || !has_y) in.fail("xllcorner or yllcorner is missing, or a number has a decimal comma");
     if (!(h.cell > 0 && h.cell < 1e6)) in.fail("cellsize is missing, or not above 0 and below 10^6");
     h.origin += glm::dvec2(corner_x ? 0.5 * h.cell : 0, corner_y ? 0.5 * h.cell : 0);
     require_position(in, h.origin.x, h.origin.y);
@@ -22902,7 +22969,7 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
             h = value == header.no_data ? (std::numeric_limits<float>::quiet_NaN)()
                                         : detail::height_or_nan(static_cast<double>(scale) * value);
         }
-    if (!in.word().empty()) in.fail("the text goes on after ncols x nrows heights");
+    if (!in.word().empty()) in.fail("the text goes on after ncols x nrows heights: are there decimal commas?");
     return field;
 }
 
@@ -24886,6 +24953,9 @@ inline namespace INSONIFY_ABI {
 
 /// Options of side-scan pictures. The types select what is computed: Labels are `labels` or `no_labels`, Equation lists
 /// the parts of the sonar equation.
+///
+/// Labels are those of the surfaces themselves: pulse and horizontal beam blur the image alone, so that a strong target
+/// shows beyond its box in it.
 template <class Labels = labels, backscatter_law Law = lambert_backscatter, class Equation = sonar_equation<level_gain>>
 struct record_options {
     Law law{};
@@ -25307,8 +25377,11 @@ struct bottom_point {
 /// Samples the profile of one ping after the other, reusing memory.
 class bottom_profile {
   public:
+    /// @param step   metres between vertices, at least those between the fan's rays on the ground
+    /// @param range  ground range of the last bin's end; the profile goes on for a step, so that it meets the ray that
+    ///               falls on either side of it
     bottom_profile(const bottom_tiles& tiles, double step, double range)
-        : tiles_(tiles), step_(step), end_(static_cast<std::size_t>(numeric::floor_to_int(range / step)) + 2) {}
+        : tiles_(tiles), step_(step), end_(static_cast<std::size_t>(numeric::floor_to_int(range / step)) + 3) {}
 
     /// @param start  lower bound of the first vertex's distance across the track
     void sample(const ping_frame& p, double start) {
@@ -26543,6 +26616,7 @@ class recorder {
         : scene_(s), track_(track), window_(window), options_(options), equation_(options.equation) {
         materials_ = checked_materials(s, options);
         for (std::size_t i = 0; i < track.size(); ++i) validate(track[i], element_name("track", i));
+        require_above_seabed();
         // Either end is a rounded float, so that the difference may be less than the metres that were meant.
         const double recorded = static_cast<double>(window.range) - static_cast<double>(window.first_range);
         require(equation_.pulse_length() <= recorded + 0x1p-23 * static_cast<double>(window.range), "pulse.length",
@@ -26572,6 +26646,14 @@ class recorder {
   private:
     static constexpr std::size_t grain = 8;   ///< pings that share a tracer and its fan
     static constexpr std::size_t leg = 4096;  ///< pings that share the sampled seabed
+
+    /// Single pings may be below the seabed: they receive nothing.
+    void require_above_seabed() const {
+        if (track_.empty()) return;
+        double highest = track_.front().position.z;
+        for (const ping& p : track_) highest = (std::max)(highest, p.position.z);
+        seabed::detail::require_above(scene_.seabed.prepare().range(), "altitude of the highest ping", highest);
+    }
 
     double range_of(std::size_t bin) const {
         return static_cast<double>(window_.first_range) + (static_cast<double>(bin) + 0.5) * window_.bin();
@@ -26794,7 +26876,8 @@ template <class Labels>
 frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboard) {
     const auto require_side = [](const char* name, const ping_numbers& rows, side wanted) {
         detail::require(rows.side == wanted && rows.port_columns == 0 && rows.step != 0, name,
-                        static_cast<int>(rows.side), "that of a recording of this side alone");
+                        static_cast<int>(rows.side),
+                        wanted == side::port ? "0, the port side alone" : "1, the starboard side alone");
     };
     require_side("port.rows.side", port.rows, side::port);
     require_side("starboard.rows.side", starboard.rows, side::starboard);

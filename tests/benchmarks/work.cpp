@@ -43,6 +43,18 @@ piece swath() {
     };
 }
 
+/// Targets far smaller than the picture, each with its shadow.
+piece many_targets() {
+    in::scene scene;
+    const in::shared_mesh pebble(in::to_mesh(in::cube{.size = glm::vec3(0.02f)}));
+    in::random_sequence places(1);
+    for (int i = 0; i < 2000; ++i) {
+        const double x = places.uniform(-5, 5), y = places.uniform(-5, 5);
+        scene.add(pebble, {.position = {x, y, 0.01}}, "pebble");
+    }
+    return [=] { in::render(scene, in::overhead{.altitude = 5, .size = {256, 256}}); };
+}
+
 /// The fixture of a unit test: scene and frame.
 piece fixture() {
     return [] {
@@ -68,6 +80,7 @@ const std::map<std::string_view, std::function<piece()>> pieces{
     {"labelled_frame", labelled_frame},
     {"swath", swath},
     {"fixture", fixture},
+    {"many_targets", many_targets},
     {"flat", [] { return sampling(in::seabed::flat{}); }},
     {"ripples", [] { return sampling(in::seabed::ripples{}); }},
     {"mud", [] { return sampling(in::seabed::mud{}); }},

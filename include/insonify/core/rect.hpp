@@ -27,6 +27,12 @@ constexpr rect intersect(const rect& a, const rect& b) {
     return {(std::max)(a.x0, b.x0), (std::max)(a.y0, b.y0), (std::min)(a.x1, b.x1), (std::min)(a.y1, b.y1)};
 }
 
+/// The smallest rectangle that contains both.
+constexpr rect merge(const rect& a, const rect& b) {
+    if (a.empty() || b.empty()) return a.empty() ? b : a;
+    return {(std::min)(a.x0, b.x0), (std::min)(a.y0, b.y0), (std::max)(a.x1, b.x1), (std::max)(a.y1, b.y1)};
+}
+
 }  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI

@@ -113,6 +113,9 @@ class shared_mesh {
   public:
     /// No triangles.
     shared_mesh() : facts_(std::make_shared<detail::mesh_facts>()) {}
+    /// Moving copies, so that no object is ever without a mesh.
+    shared_mesh(const shared_mesh&) = default;
+    shared_mesh& operator=(const shared_mesh&) = default;
     /// @throws invalid_input for indices or normals that don't match the positions
     INSONIFY_MEMBER shared_mesh(mesh m) : facts_(detail::facts_of(std::move(m))) {}
     /// The mesh of a shape with a `to_mesh`. Primitives skip the analysis, because their type tells its results; a

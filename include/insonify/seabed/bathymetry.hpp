@@ -73,7 +73,7 @@ inline esri_header read_esri_header(survey_reader& in) {
     };
     if (!is_whole(h.columns)) in.fail("ncols is missing or not an integer from 2 to 2^24");
     if (!is_whole(h.rows)) in.fail("nrows is missing or not an integer from 2 to 2^24");
-    if (!has_x || !has_y) in.fail("xllcorner or yllcorner is missing");
+    if (!has_x || !has_y) in.fail("xllcorner or yllcorner is missing, or a number has a decimal comma");
     if (!(h.cell > 0 && h.cell < 1e6)) in.fail("cellsize is missing, or not above 0 and below 10^6");
     h.origin += glm::dvec2(corner_x ? 0.5 * h.cell : 0, corner_y ? 0.5 * h.cell : 0);
     require_position(in, h.origin.x, h.origin.y);
@@ -173,7 +173,7 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
             h = value == header.no_data ? (std::numeric_limits<float>::quiet_NaN)()
                                         : detail::height_or_nan(static_cast<double>(scale) * value);
         }
-    if (!in.word().empty()) in.fail("the text goes on after ncols x nrows heights");
+    if (!in.word().empty()) in.fail("the text goes on after ncols x nrows heights: are there decimal commas?");
     return field;
 }
 

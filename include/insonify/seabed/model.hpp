@@ -197,6 +197,12 @@ inline void require_finite(const height_range& range) {
             "finite heights that it never leaves (a model without `range()` states none)");
 }
 
+/// @throws invalid_input for a sonar below all of the seabed, as where a depth is given for a height
+inline void require_above(const height_range& range, std::string_view name, double altitude) {
+    require(range.empty() || altitude > range.lowest, name, altitude,
+            "above the seabed's lowest height, " + to_text(range.lowest + 0.0));  // not -0
+}
+
 /// The range of floats that are computed within a range: rounding may exceed it.
 inline height_range with_rounding(const height_range& r) {
     const double error = 0x1p-21 * (std::max)(numeric::abs(r.lowest), numeric::abs(r.highest));

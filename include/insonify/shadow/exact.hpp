@@ -78,7 +78,7 @@ class exact_occlusion {
         const detail::tiled_plane& plane = planes_.front();
         const detail::ray_feet feet(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
-            if (plane.occupant[tile] == caster || plane.occupant[tile] == no_caster) continue;
+            if (plane.occupants.only(tile) == caster || plane.occupants.of(tile).empty()) continue;
             shared.push_back(feet.of(plane.tiles.lower + plane.tiles.corner(tile), plane.tiles.tile()));
         }
         bulk_ranges(ex, static_cast<std::size_t>(grid.columns - 1), 32, [&](std::size_t first, std::size_t last) {
@@ -119,9 +119,6 @@ class exact_occlusion {
     }
 
   private:
-    static constexpr std::uint32_t no_caster = detail::tiled_plane::no_caster,
-                                   several_casters = detail::tiled_plane::several_casters;
-
     /// Upper bound of the absolute coordinates of points. Casters may reach farther.
     static double reach_of(const bounding_box& bounds) {
         double reach = 0;
@@ -144,9 +141,10 @@ class exact_occlusion {
         if (is_grid && at.face_light) grids_[own]->decide_own(at, first, last, answers, level_);
         const detail::tiled_plane& state = planes_.front();
         for (std::size_t i = first; i < last; ++i) {
-            const std::uint32_t occupant = state.occupant[state.tile_of(state.plane(at[i]))];
+            const std::uint32_t occupant = state.occupants.only(state.tile_of(state.plane(at[i])));
             into.lit[i] = unknown;
-            if (occupant == no_caster || (occupant != several_casters && occupant >= at.casters)) {
+            if (occupant == detail::tile_occupants::none ||
+                (occupant != detail::tile_occupants::several && occupant >= at.casters)) {
                 into.lit[i] = 1;
             } else if (occupant == own && is_grid) {
                 const decision answer = answers[i - first];
@@ -202,23 +200,29 @@ class exact_occlusion {
         tiles.lower -= margin;
         tiles.size += 2 * margin;
         detail::tiled_plane state{plane, tiles, static_cast<float>(error), {}, 1.0 / tiles.tile(), {}};
-        state.occupant.assign(tiles.count(), no_caster);
+        detail::dynamic_array<detail::tile_occupants::occupancy> occupants;
+        const auto occupy = [&](int column, int row, std::size_t caster) {
+            occupants.push_back(
+                {static_cast<std::uint32_t>(row * tiles.columns + column), static_cast<std::uint32_t>(caster)});
+        };
         for (std::size_t i = 0; i < casters_.size(); ++i) {
             const caster& c = casters_[i];
             if (grids_[i]) {
                 state.casters.push_back({});
                 const auto [first, last] = state.tiles_under(c);
                 for (int row = first.y; row <= last.y; ++row)
-                    for (int column = first.x; column <= last.x; ++column)
-                        state.occupy(static_cast<std::size_t>(row * tiles.columns + column), i);
+                    for (int column = first.x; column <= last.x; ++column) occupy(column, row, i);
                 continue;
             }
             insonify::detail::require_indices(c.mesh, ex);
             state.casters.push_back({c, plane, tiles, min_depth, level_, ex});
             const detail::plane_caster& built = state.casters.back();
-            for (std::size_t tile = 0; tile < tiles.count(); ++tile)
-                if (!built.bin(tile).empty()) state.occupy(tile, i);
+            const rect touched = built.tiles();
+            for (int row = touched.y0; row < touched.y1; ++row)
+                for (int column = touched.x0; column < touched.x1; ++column)
+                    if (!built.bin(column, row).empty()) occupy(column, row, i);
         }
+        state.occupants = {tiles.count(), occupants};
         planes_.add(std::move(state));
     }
 
@@ -226,10 +230,11 @@ class exact_occlusion {
                    std::span<const points> at, std::span<const results> into) const {
         const auto [state, tile] = planes_.plane_of(tile_number);
         cells.sort(all, at, glm::vec2(state->tiles.corner(tile)), glm::vec2(state->tiles.tile()));
-        for (std::size_t i = 0; i < state->casters.size(); ++i) {
-            const auto number = static_cast<std::uint32_t>(i);
+        const auto row_length = static_cast<std::size_t>(state->tiles.columns);
+        const auto column = static_cast<int>(tile % row_length), row = static_cast<int>(tile / row_length);
+        for (const std::uint32_t number : state->occupants.of(tile)) {
             cells.close(number);
-            if (grids_[i]) {
+            if (grids_[number]) {
                 for (std::size_t k = 0; k < cells.size(); ++k)
                     if (cells.caster[k] == detail::receiver_cells::open) {
                         const detail::batch_index place = cells.place[k];
@@ -238,16 +243,16 @@ class exact_occlusion {
                     }
                 continue;
             }
-            const detail::plane_caster& caster = state->casters[i];
-            if (caster.bin(tile).empty()) continue;
-            const shadow::caster& c = casters_[i];
+            const detail::plane_caster& caster = state->casters[number];
+            const shadow::caster& c = casters_[number];
             const auto decide = [&](std::uint32_t triangle, std::size_t k) {
                 const detail::batch_index place = cells.place[k];
                 return is_blocked_by(number, triangle, at[place.batch()][place.point()]);
             };
             insonify::detail::dispatch(
-                detail::occlusion_kernel<std::remove_const_t<decltype(decide)>>{
-                    caster, caster.bin(tile), number, c.may_skip, is_turned(c, *state), state->error, cells, decide},
+                detail::occlusion_kernel<std::remove_const_t<decltype(decide)>>{caster, caster.bin(column, row), number,
+                                                                                c.may_skip, is_turned(c, *state),
+                                                                                state->error, cells, decide},
                 level_);
         }
         for (std::size_t i = 0; i < cells.size(); ++i) {

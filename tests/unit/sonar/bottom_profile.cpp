@@ -396,6 +396,17 @@ TEST_CASE("The last bin holds what it holds in a recording that goes on") {
     }
 }
 
+TEST_CASE("The last bin over level ground is as bright as the others, wherever its end falls among the rays") {
+    for (const float altitude : {5.0f, 5.7f, 6.3f, 7.9f, 12.34f})
+        for (const double cell : {0.0, 0.0625, 0.2})
+            for (float range = 15; range < 40; range += 0.31f) {
+                CAPTURE(altitude, cell, range);
+                const in::ground_range rig{.altitude = altitude, .pings = 1, .range = range, .bins = 400};
+                const auto heard = in::render(over(sea_level), rig, in::record_options<>{.cell = cell});
+                CHECK(heard.image(399, 0) == Approx(heard.image(396, 0)).epsilon(0.01));
+            }
+}
+
 TEST_CASE("Of a plate above the sonar each side hears its part") {
     const in::ping p{.position = {0, 0, 5}};
     in::scene whole = over(sea_level), part = whole;

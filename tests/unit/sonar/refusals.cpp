@@ -358,3 +358,12 @@ TEST_CASE("settings_for() refuses budgets and probes by name") {
                                       {FIELD(chips, outside_whole(1, 1024)), FIELD(pixels, outside_whole(1, 2048)),
                                        FIELD(finest, outside(1, 8)), FIELD(usable_share, outside(0, 1))});
 }
+
+TEST_CASE("An overhead sonar below all of the seabed is refused, as where the datum lies elsewhere") {
+    in::scene s;
+    s.seabed =
+        in::seabed::heightfield{.heights = in::image<float>(40, 40, 42.0f), .origin = {-10, -10}, .spacing = 0.5};
+    CHECK_THROWS_WITH(in::render(s, in::overhead{.altitude = 5, .size = {8, 8}}),
+                      ContainsSubstring("overhead.altitude is 5, expected above the seabed's lowest height, 42"));
+    CHECK_NOTHROW(in::render(s, in::overhead{.altitude = 47, .size = {8, 8}}));
+}

@@ -297,13 +297,22 @@ TEST_CASE("A target at nadir returns before the seabed, and shades the seabed be
     CHECK(shadow.first == Approx(500).margin(1));
 }
 
-TEST_CASE("Ranges below the altitude and a sonar below the seabed return nothing") {
-    for (const in::side_scan& rig : {one_ping(10, 9, 64), one_ping(-1, 9, 64), one_ping(0, 9, 64)}) {
-        const auto heard = in::render(level_bottom(), rig);
-        for (const float v : heard.image.pixels()) CHECK(v == 0);
-        for (const auto v : heard.labels.seabed.pixels()) CHECK(v == in::labels::no_seabed);
-        for (const auto v : heard.labels.shadow.pixels()) CHECK(v == in::labels::is_lit);
+TEST_CASE("Ranges below the altitude and pings below the seabed return nothing") {
+    const in::side_scan rig = one_ping(10, 9, 64);
+    for (const double altitude : {10.0, 0.0, -1.0}) {
+        const in::ping track[] = {{.position = {0, 0, altitude}}, {.position = {0, 0, 5}}};
+        const auto heard = in::record(level_bottom(), track, rig);
+        for (const float v : heard.image.row(0)) CHECK(v == 0);
+        for (const auto v : heard.labels.seabed.row(0)) CHECK(v == in::labels::no_seabed);
+        for (const auto v : heard.labels.shadow.row(0)) CHECK(v == in::labels::is_lit);
     }
+}
+
+TEST_CASE("A recording of which all pings are below the seabed is refused, as where depths are given for heights") {
+    for (const float altitude : {0.0f, -5.0f})
+        CHECK_THROWS_WITH(in::render(level_bottom(), one_ping(altitude, 9, 64)),
+                          ContainsSubstring("altitude of the highest ping is " + in::detail::to_text(altitude) +
+                                            ", expected above the seabed's lowest height, 0"));
 }
 
 TEST_CASE("A sonar inside a hill receives nothing; one beside a cliff receives the cliff and nothing behind it") {
@@ -610,8 +619,9 @@ TEST_CASE("Intensities are finite and not negative in random scenes and rigs") {
             s.add(m, {.position = {real(-10, 10), real(-3, 3), real(-2, 4)}, .pitch = real(-1, 1)}, "thing");
         }
         const float first = random.below(2) == 0 ? 0 : real(0, 20);
+        const double lowest = n % 3 == 2 ? -2.5 : 0.01;  // a sonar below all of the seabed is refused
         const in::side_scan rig{.position = {real(-5, 5), real(-5, 5)},
-                                .altitude = random.below(6) == 0 ? real(-3, 3) : std::exp(real(-4, 3)),
+                                .altitude = random.below(6) == 0 ? real(lowest, 3) : std::exp(real(-4, 3)),
                                 .yaw = real(-10, 10),
                                 .ping_spacing = std::exp(real(-4, 1)),
                                 .pings = 5,

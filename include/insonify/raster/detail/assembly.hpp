@@ -79,7 +79,7 @@ class screen_mesh {
             runs.push_back(std::move(c.runs));
             stats_ += c.stats;
         }
-        bins_ = tile_bins(runs, tiles, ex);
+        bins_ = tile_bins(runs, rect{0, 0, tiles.columns, tiles.rows}, ex);
     }
 
     const draw_stats& stats() const { return stats_; }

@@ -139,16 +139,23 @@ class tile_runs {
     }
 
     /// Calls `visit(tile, run)` for every run and each tile that it touches, in order.
+    /// @param all  contains the runs' tiles, which are counted in it row by row
     template <class Visit>
-    void for_each(const tile_grid& grid, const Visit& visit) const {
+    void for_each(const rect& all, const Visit& visit) const {
         for (const entry& e : entries_) {
             const rect tiles = e.tiles.tiles();
             for (int row = tiles.y0; row < tiles.y1; ++row)
                 for (int column = tiles.x0; column < tiles.x1; ++column)
-                    visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
-                              static_cast<std::size_t>(column),
+                    visit(static_cast<std::size_t>(row - all.y0) * static_cast<std::size_t>(all.width()) +
+                              static_cast<std::size_t>(column - all.x0),
                           e.run);
         }
+    }
+
+    /// The smallest rectangle of tiles that contains those of all runs and `other`.
+    rect bounds(rect other) const {
+        for (const entry& e : entries_) other = merge(other, e.tiles.tiles());
+        return other;
     }
 
     /// Adds `offset` to all ids from `first` on. @pre no run contains ids both below and above it
@@ -171,14 +178,16 @@ class tile_bins {
     tile_bins() = default;
 
     /// @param chunks  the runs of all chunks, in submission order
+    /// @param all     contains their tiles
     template <executor E>
-    tile_bins(std::span<const tile_runs> chunks, const tile_grid& grid, E& ex) : first_(grid.count() + 1, 0) {
+    tile_bins(std::span<const tile_runs> chunks, const rect& all, E& ex) {
         // How many runs each chunk has in each tile; then, where in the tile it puts the next one.
-        const std::size_t tiles = grid.count();
+        const std::size_t tiles = static_cast<std::size_t>(all.width()) * static_cast<std::size_t>(all.height());
+        first_.assign(tiles + 1, 0);
         dynamic_array<std::uint32_t> positions(chunks.size() * tiles, 0);
         const auto of_chunk = [&](std::size_t chunk) { return std::span(positions).subspan(chunk * tiles, tiles); };
         ex.bulk(chunks.size(), [&](std::size_t chunk) {
-            chunks[chunk].for_each(grid, [&](std::size_t tile, const triangle_run&) { ++of_chunk(chunk)[tile]; });
+            chunks[chunk].for_each(all, [&](std::size_t tile, const triangle_run&) { ++of_chunk(chunk)[tile]; });
         });
         dynamic_array<std::uint32_t> next(tiles, 0);
         for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk)
@@ -189,7 +198,7 @@ class tile_bins {
 
         runs_ = uninitialized_array<triangle_run>(first_.back(), memory_of(ex));
         ex.bulk(chunks.size(), [&](std::size_t chunk) {
-            chunks[chunk].for_each(grid, [&](std::size_t tile, const triangle_run& run) {
+            chunks[chunk].for_each(all, [&](std::size_t tile, const triangle_run& run) {
                 runs_[first_[tile] + of_chunk(chunk)[tile]++] = run;
             });
         });

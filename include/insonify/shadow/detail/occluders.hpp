@@ -257,10 +257,17 @@ class plane_caster {
                 tile_assembly_kernel{vertices_.data(), c.mesh, to_plane, first, last, tiles, chunks[first / grain]},
                 level);
         });
-        bins_ = insonify::detail::tile_bins(chunks, insonify::detail::tile_grid(tiles.columns, tiles.rows, 0), ex);
+        for (const insonify::detail::tile_runs& chunk : chunks) tiles_ = chunk.bounds(tiles_);
+        bins_ = insonify::detail::tile_bins(chunks, tiles_, ex);
     }
 
-    std::span<const insonify::detail::triangle_run> bin(std::size_t tile) const { return bins_[tile]; }
+    /// Contains all tiles that the caster touches.
+    const rect& tiles() const { return tiles_; }
+    /// The triangles that touch one of them.
+    std::span<const insonify::detail::triangle_run> bin(int column, int row) const {
+        return bins_[static_cast<std::size_t>(row - tiles_.y0) * static_cast<std::size_t>(tiles_.width()) +
+                     static_cast<std::size_t>(column - tiles_.x0)];
+    }
     /// Prefetches the corners of a triangle that may be tested soon.
     INSONIFY_INLINE void prefetch(std::uint32_t triangle) const {
         if (triangle >= triangles_.size()) return;
@@ -271,7 +278,8 @@ class plane_caster {
   private:
     std::span<const glm::uvec3> triangles_;
     insonify::detail::uninitialized_array<plane_vertex> vertices_;
-    insonify::detail::tile_bins bins_;
+    rect tiles_;
+    insonify::detail::tile_bins bins_;  ///< of the triangles by tile
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS

@@ -80,8 +80,8 @@ class points_by_tile {
             const points& some = at[batch];
             for (std::size_t i = 0; i < some.size(); ++i) {
                 const tiled_planes::place over = planes_.of(some[i]);
-                if (over.plane == nullptr || over.occupant == tiled_plane::no_caster) continue;
-                if (over.occupant != tiled_plane::several_casters && over.occupant >= some.casters) continue;
+                if (over.plane == nullptr || over.occupant == tile_occupants::none) continue;
+                if (over.occupant != tile_occupants::several && over.occupant >= some.casters) continue;
                 const glm::dvec2 from = glm::dvec2(over.seen) - over.plane->tiles.lower;
                 found[count] = {static_cast<float>(from.x),
                                 static_cast<float>(from.y),

@@ -30,16 +30,48 @@ std::pair<glm::dvec2, glm::dvec2> extent_on(const light_plane& plane, const Corn
     return {lower, upper};
 }
 
+/// The casters that touch each tile of a plane.
+class tile_occupants {
+  public:
+    static constexpr std::uint32_t none = invalid_id, several = invalid_id - 1;
+    struct occupancy {
+        std::uint32_t tile, caster;
+    };
+
+    tile_occupants() = default;
+    /// @param all  in order of casters
+    tile_occupants(std::size_t tiles, std::span<const occupancy> all)
+        : only_(tiles, none), starts_(tiles + 1, 0), casters_(all.size()) {
+        for (const occupancy& o : all) {
+            ++starts_[o.tile + 1];
+            only_[o.tile] = only_[o.tile] == none ? o.caster : several;
+        }
+        for (std::size_t tile = 0; tile < tiles; ++tile) starts_[tile + 1] += starts_[tile];
+        dynamic_array<std::size_t> next = starts_;
+        for (const occupancy& o : all) casters_[next[o.tile]++] = o.caster;
+    }
+
+    /// In order.
+    std::span<const std::uint32_t> of(std::size_t tile) const {
+        return std::span(casters_).subspan(starts_[tile], starts_[tile + 1] - starts_[tile]);
+    }
+    /// The only caster of a tile, or `none`, or `several`.
+    std::uint32_t only(std::size_t tile) const { return only_[tile]; }
+
+  private:
+    dynamic_array<std::uint32_t> only_;
+    dynamic_array<std::size_t> starts_;  ///< of the tiles, then the number of all
+    dynamic_array<std::uint32_t> casters_;
+};
+
 /// One plane.
 struct tiled_plane {
-    static constexpr std::uint32_t no_caster = invalid_id, several_casters = invalid_id - 1;
-
     light_plane plane;
     plane_tiles tiles;
     float error = 0;  ///< of coordinates on the plane
     dynamic_array<plane_caster> casters;
-    glm::dvec2 scale{};                       ///< tiles per unit
-    dynamic_array<std::uint32_t> occupant{};  ///< by tile: the only caster that touches it, or one of the constants
+    glm::dvec2 scale{};  ///< tiles per unit
+    tile_occupants occupants{};
 
     /// The tile that contains a point of the plane, or the nearest one.
     std::size_t tile_of(const glm::dvec3& at) const {
@@ -57,9 +89,6 @@ struct tiled_plane {
             return glm::ivec2(clamped(in_tiles.x + margin, tiles.columns), clamped(in_tiles.y + margin, tiles.rows));
         };
         return {tile(lower, -0x1p-10), tile(upper, 0x1p-10)};
-    }
-    void occupy(std::size_t tile, std::size_t caster) {
-        occupant[tile] = occupant[tile] == no_caster ? static_cast<std::uint32_t>(caster) : several_casters;
     }
 
   private:
@@ -94,7 +123,7 @@ class tiled_planes {
         const tiled_plane* plane;  ///< null where no caster blocks its light
         glm::dvec3 seen;           ///< on the plane, after the division
         std::size_t tile;          ///< among all
-        std::uint32_t occupant;    ///< of the tile
+        std::uint32_t occupant;    ///< of the tile, see tile_occupants::only
     };
     place of(const glm::dvec3& p) const {
         const auto face = static_cast<std::size_t>(near_light_ ? light_plane::face_of(*near_light_, p) : 0);
@@ -102,7 +131,7 @@ class tiled_planes {
         if (on.casters.empty()) return {};
         const glm::dvec3 before = on.plane(p), seen = near_light_ ? light_plane::seen(before) : before;
         const std::size_t tile = on.tile_of(seen);
-        return {&on, seen, starts_[face] + tile, on.occupant[tile]};
+        return {&on, seen, starts_[face] + tile, on.occupants.only(tile)};
     }
 
   private:

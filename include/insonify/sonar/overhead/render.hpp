@@ -124,6 +124,7 @@ class overhead_painter {
 
         seabed::height_range range = scene_.seabed.prepare().range();
         seabed::detail::require_finite(range);
+        seabed::detail::require_above(range, "overhead.altitude", static_cast<double>(rig.altitude));
         range = merge(range, {0, 0});
         const auto sample = [&](const seabed::height_range& heights) {
             ground_rect ground = shown_ground(view_, heights);

@@ -67,7 +67,8 @@ template <class Labels>
 frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboard) {
     const auto require_side = [](const char* name, const ping_numbers& rows, side wanted) {
         detail::require(rows.side == wanted && rows.port_columns == 0 && rows.step != 0, name,
-                        static_cast<int>(rows.side), "that of a recording of this side alone");
+                        static_cast<int>(rows.side),
+                        wanted == side::port ? "0, the port side alone" : "1, the starboard side alone");
     };
     require_side("port.rows.side", port.rows, side::port);
     require_side("starboard.rows.side", starboard.rows, side::starboard);

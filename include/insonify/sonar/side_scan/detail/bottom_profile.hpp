@@ -25,8 +25,11 @@ struct bottom_point {
 /// Samples the profile of one ping after the other, reusing memory.
 class bottom_profile {
   public:
+    /// @param step   metres between vertices, at least those between the fan's rays on the ground
+    /// @param range  ground range of the last bin's end; the profile goes on for a step, so that it meets the ray that
+    ///               falls on either side of it
     bottom_profile(const bottom_tiles& tiles, double step, double range)
-        : tiles_(tiles), step_(step), end_(static_cast<std::size_t>(numeric::floor_to_int(range / step)) + 2) {}
+        : tiles_(tiles), step_(step), end_(static_cast<std::size_t>(numeric::floor_to_int(range / step)) + 3) {}
 
     /// @param start  lower bound of the first vertex's distance across the track
     void sample(const ping_frame& p, double start) {

@@ -56,6 +56,7 @@ class recorder {
         : scene_(s), track_(track), window_(window), options_(options), equation_(options.equation) {
         materials_ = checked_materials(s, options);
         for (std::size_t i = 0; i < track.size(); ++i) validate(track[i], element_name("track", i));
+        require_above_seabed();
         // Either end is a rounded float, so that the difference may be less than the metres that were meant.
         const double recorded = static_cast<double>(window.range) - static_cast<double>(window.first_range);
         require(equation_.pulse_length() <= recorded + 0x1p-23 * static_cast<double>(window.range), "pulse.length",
@@ -85,6 +86,14 @@ class recorder {
   private:
     static constexpr std::size_t grain = 8;   ///< pings that share a tracer and its fan
     static constexpr std::size_t leg = 4096;  ///< pings that share the sampled seabed
+
+    /// Single pings may be below the seabed: they receive nothing.
+    void require_above_seabed() const {
+        if (track_.empty()) return;
+        double highest = track_.front().position.z;
+        for (const ping& p : track_) highest = (std::max)(highest, p.position.z);
+        seabed::detail::require_above(scene_.seabed.prepare().range(), "altitude of the highest ping", highest);
+    }
 
     double range_of(std::size_t bin) const {
         return static_cast<double>(window_.first_range) + (static_cast<double>(bin) + 0.5) * window_.bin();
