@@ -16570,26 +16570,14 @@ struct occlusion_kernel {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/shadow/detail/tiled_plane.hpp ----------------------------------------------------
-// The planes that rays of the light cross, cut into tiles, and which casters touch each tile.
-
-INSONIFY_ARITHMETIC_BEGIN
+// ------------ insonify/shadow/detail/tile_occupants.hpp -------------------------------------------------
+// Which casters touch each tile of a plane.
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
-/// The rectangle of a plane that contains the eight points corner(0) to corner(7).
-template <class Corner>
-std::pair<glm::dvec2, glm::dvec2> extent_on(const light_plane& plane, const Corner& corner) {
-    glm::dvec2 lower(std::numeric_limits<double>::infinity()), upper = -lower;
-    for (int i = 0; i < 8; ++i) {
-        const glm::dvec3 at = plane(corner(i));
-        lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
-        upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
-    }
-    return {lower, upper};
-}
+using insonify::detail::dynamic_array;
 
 /// The casters that touch each tile of a plane.
 class tile_occupants {
@@ -16624,6 +16612,31 @@ class tile_occupants {
     dynamic_array<std::size_t> starts_;  ///< of the tiles, then the number of all
     dynamic_array<std::uint32_t> casters_;
 };
+
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+// ------------ insonify/shadow/detail/tiled_plane.hpp ----------------------------------------------------
+// The planes that rays of the light cross, cut into tiles, and which casters touch each tile.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail::inline INSONIFY_FLAGS {
+
+/// The rectangle of a plane that contains the eight points corner(0) to corner(7).
+template <class Corner>
+std::pair<glm::dvec2, glm::dvec2> extent_on(const light_plane& plane, const Corner& corner) {
+    glm::dvec2 lower(std::numeric_limits<double>::infinity()), upper = -lower;
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 at = plane(corner(i));
+        lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
+        upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
+    }
+    return {lower, upper};
+}
 
 /// One plane.
 struct tiled_plane {
@@ -23958,6 +23971,7 @@ class height_map {
     bool empty() const { return heights_.empty(); }
     int columns() const { return heights_.width(); }
     int rows() const { return heights_.height(); }
+    double texel() const { return texel_; }  ///< metres between rays along u and v
 
     /// A point of the frame on the map: continuous column and row (texel (i, j) has its centre at (i + 1/2, j + 1/2)),
     /// and its height as the map stores heights.
@@ -24148,11 +24162,24 @@ class map_occlusion {
         validate(layout);
         const map_extent receivers = extent_of(bounds.box, {}, frame_);
         const double texel = spacing_of(bounds, receivers) / static_cast<double>(layout.texels_per_pixel);
-        for (const caster& c : casters_) {
+        lowest_ = receivers.lowest;
+        const glm::dvec2 size = receivers.highest - receivers.lowest;
+        for (int i = 0; i < 2; ++i) tiles_per_metre_[i] = size[i] > 0 ? side / size[i] : 0;
+        insonify::detail::dynamic_array<detail::tile_occupants::occupancy> occupants;
+        for (std::size_t k = 0; k < casters_.size(); ++k) {
+            const caster& c = casters_[k];
             const map_extent own = extent_of(c.box, c.placement, frame_).clipped_to(receivers);
             maps_.push_back({frame_, own, texel, layout.largest});
             maps_.back().cast(c.mesh, c.placement, ex);
+            if (maps_.back().empty()) continue;
+            const double reach = (layout.radius + 2) * maps_.back().texel();  // of the filter, and rounding
+            const glm::ivec2 first = tile_of(own.lowest - reach), last = tile_of(own.highest + reach);
+            for (int row = first.y; row <= last.y; ++row)
+                for (int column = first.x; column <= last.x; ++column)
+                    occupants.push_back(
+                        {static_cast<std::uint32_t>(row * side + column), static_cast<std::uint32_t>(k)});
         }
+        casters_of_tiles_ = {side * side, occupants};
     }
 
     /// See occlusion.
@@ -24164,11 +24191,12 @@ class map_occlusion {
             const bool is_turned = numeric::dot(facet, frame_.to_light()) < 0;
             const receiver_plane plane(frame_, at[i], is_turned ? -facet : facet);
             const bool is_grazed = !plane.faces_light && facet != glm::dvec3(0);
-            const std::size_t count = (std::min)(maps_.size(), static_cast<std::size_t>(at.casters));
-            for (std::size_t k = 0; k < count && into.lit[i] > 0; ++k) {
+            const glm::ivec2 tile = tile_of(glm::dvec2(plane.uvz));
+            for (const std::uint32_t k : casters_of_tiles_.of(static_cast<std::size_t>(tile.y * side + tile.x))) {
+                if (k >= at.casters || !(into.lit[i] > 0)) break;
                 const float fraction = lit(maps_[k], plane, radius_);
                 into.lit[i] = (std::min)(into.lit[i], fraction);
-                if (fraction < 0.5f && into.caster[i] == invalid_id) into.caster[i] = static_cast<std::uint32_t>(k);
+                if (fraction < 0.5f && into.caster[i] == invalid_id) into.caster[i] = k;
             }
             if (!is_grazed) continue;
             // It blocks its own light.
@@ -24178,6 +24206,18 @@ class map_occlusion {
     }
 
   private:
+    static constexpr int side =
+        64;  ///< tiles along either axis of the receivers' extent, which list the maps over them
+
+    /// Column and row of the tile that contains a point (u, v), or of the nearest one.
+    glm::ivec2 tile_of(const glm::dvec2& uv) const {
+        glm::ivec2 tile;
+        for (int i = 0; i < 2; ++i) {
+            const double at = (uv[i] - lowest_[i]) * tiles_per_metre_[i];
+            tile[i] = static_cast<int>((std::min)((std::max)(0.0, at), side - 1.0));
+        }
+        return tile;
+    }
     static light_frame parallel(const any_light& light) {
         if (const auto* from_nearby = std::get_if<point_light>(&light)) {
             const glm::dvec3& p = from_nearby->position;
@@ -24199,6 +24239,8 @@ class map_occlusion {
     light_frame frame_;
     int radius_;
     insonify::detail::dynamic_array<height_map> maps_;
+    glm::dvec2 lowest_{0}, tiles_per_metre_{0};
+    detail::tile_occupants casters_of_tiles_;
 };
 
 }  // namespace INSONIFY_FLAGS

@@ -114,6 +114,7 @@ class height_map {
     bool empty() const { return heights_.empty(); }
     int columns() const { return heights_.width(); }
     int rows() const { return heights_.height(); }
+    double texel() const { return texel_; }  ///< metres between rays along u and v
 
     /// A point of the frame on the map: continuous column and row (texel (i, j) has its centre at (i + 1/2, j + 1/2)),
     /// and its height as the map stores heights.

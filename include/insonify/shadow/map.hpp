@@ -7,6 +7,7 @@
 
 #include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/executor.hpp>
+#include <insonify/shadow/detail/tile_occupants.hpp>
 #include <insonify/shadow/map_lookup.hpp>
 #include <insonify/shadow/policy.hpp>
 
@@ -45,11 +46,24 @@ class map_occlusion {
         validate(layout);
         const map_extent receivers = extent_of(bounds.box, {}, frame_);
         const double texel = spacing_of(bounds, receivers) / static_cast<double>(layout.texels_per_pixel);
-        for (const caster& c : casters_) {
+        lowest_ = receivers.lowest;
+        const glm::dvec2 size = receivers.highest - receivers.lowest;
+        for (int i = 0; i < 2; ++i) tiles_per_metre_[i] = size[i] > 0 ? side / size[i] : 0;
+        insonify::detail::dynamic_array<detail::tile_occupants::occupancy> occupants;
+        for (std::size_t k = 0; k < casters_.size(); ++k) {
+            const caster& c = casters_[k];
             const map_extent own = extent_of(c.box, c.placement, frame_).clipped_to(receivers);
             maps_.push_back({frame_, own, texel, layout.largest});
             maps_.back().cast(c.mesh, c.placement, ex);
+            if (maps_.back().empty()) continue;
+            const double reach = (layout.radius + 2) * maps_.back().texel();  // of the filter, and rounding
+            const glm::ivec2 first = tile_of(own.lowest - reach), last = tile_of(own.highest + reach);
+            for (int row = first.y; row <= last.y; ++row)
+                for (int column = first.x; column <= last.x; ++column)
+                    occupants.push_back(
+                        {static_cast<std::uint32_t>(row * side + column), static_cast<std::uint32_t>(k)});
         }
+        casters_of_tiles_ = {side * side, occupants};
     }
 
     /// See occlusion.
@@ -61,11 +75,12 @@ class map_occlusion {
             const bool is_turned = numeric::dot(facet, frame_.to_light()) < 0;
             const receiver_plane plane(frame_, at[i], is_turned ? -facet : facet);
             const bool is_grazed = !plane.faces_light && facet != glm::dvec3(0);
-            const std::size_t count = (std::min)(maps_.size(), static_cast<std::size_t>(at.casters));
-            for (std::size_t k = 0; k < count && into.lit[i] > 0; ++k) {
+            const glm::ivec2 tile = tile_of(glm::dvec2(plane.uvz));
+            for (const std::uint32_t k : casters_of_tiles_.of(static_cast<std::size_t>(tile.y * side + tile.x))) {
+                if (k >= at.casters || !(into.lit[i] > 0)) break;
                 const float fraction = lit(maps_[k], plane, radius_);
                 into.lit[i] = (std::min)(into.lit[i], fraction);
-                if (fraction < 0.5f && into.caster[i] == invalid_id) into.caster[i] = static_cast<std::uint32_t>(k);
+                if (fraction < 0.5f && into.caster[i] == invalid_id) into.caster[i] = k;
             }
             if (!is_grazed) continue;
             // It blocks its own light.
@@ -75,6 +90,18 @@ class map_occlusion {
     }
 
   private:
+    static constexpr int side =
+        64;  ///< tiles along either axis of the receivers' extent, which list the maps over them
+
+    /// Column and row of the tile that contains a point (u, v), or of the nearest one.
+    glm::ivec2 tile_of(const glm::dvec2& uv) const {
+        glm::ivec2 tile;
+        for (int i = 0; i < 2; ++i) {
+            const double at = (uv[i] - lowest_[i]) * tiles_per_metre_[i];
+            tile[i] = static_cast<int>((std::min)((std::max)(0.0, at), side - 1.0));
+        }
+        return tile;
+    }
     static light_frame parallel(const any_light& light) {
         if (const auto* from_nearby = std::get_if<point_light>(&light)) {
             const glm::dvec3& p = from_nearby->position;
@@ -96,6 +123,8 @@ class map_occlusion {
     light_frame frame_;
     int radius_;
     insonify::detail::dynamic_array<height_map> maps_;
+    glm::dvec2 lowest_{0}, tiles_per_metre_{0};
+    detail::tile_occupants casters_of_tiles_;
 };
 
 }  // namespace INSONIFY_FLAGS

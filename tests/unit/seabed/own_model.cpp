@@ -234,7 +234,7 @@ TEST_CASE("A seabed that leaves the range that it states is refused") {
     const auto record = [](const plateau& p) {
         in::scene s;
         s.seabed = p;
-        in::render(s, in::side_scan{.pings = 4, .range = 20, .bins = 64});
+        in::render(s, in::side_scan{.altitude = 12, .pings = 4, .range = 20, .bins = 64});
     };
     for (const plateau& beyond : {plateau{0.5f, {-0.2, 0.2}}, plateau{-0.5f, {-0.2, 0.2}}, plateau{0.5f, {}}}) {
         CHECK_THROWS_WITH(draw(beyond), ContainsSubstring("a height of the seabed is " +

@@ -1,4 +1,5 @@
 // Behaviour common to all shadow policies, and results of map, pcf and penumbra for single points.
+#include <insonify/core/random.hpp>
 #include <insonify/geometry/cube.hpp>
 #include <insonify/shadow/map.hpp>
 #include <insonify/shadow/penumbra.hpp>
@@ -57,6 +58,48 @@ TEMPLATE_TEST_CASE("Every policy reports the lowest-numbered caster that blocks 
     few.casters = 0;
     CHECK(results_of(TestType{}, casters, parallel(0, 30), few, bounds).caster == std::vector<std::uint32_t>(6, none));
     CHECK(results_of(TestType{}, {}, parallel(0, 30), list, bounds).lit == std::vector<float>(6, 1.0f));
+}
+
+TEST_CASE("Many small casters shade points as each does alone") {
+    const in::mesh cube = to_mesh(in::cube{.size = glm::vec3(0.2f)});
+    in::random_sequence random(1);
+    std::vector<shadow::caster> casters;
+    for (int i = 0; i < 60; ++i)
+        casters.push_back(caster_of(cube, at({random.uniform(-3, 3), random.uniform(-3, 3), 0.1})));
+    lit::point_list list;
+    for (int i = 0; i < 4000; ++i) list.add({random.uniform(-3.5, 3.5), random.uniform(-3.5, 3.5), 0});
+    const shadow::point_bounds bounds{around, 0.02};
+    const auto check = [&](const auto& policy, const auto& lit_beside) {
+        const auto together = results_of(policy, casters, parallel(20, 15), list, bounds);
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            float lit = 1;
+            std::uint32_t blocking = none;
+            for (std::uint32_t k = 0; k < casters.size(); ++k) {
+                const float alone = lit_beside(k, i);
+                lit = (std::min)(lit, alone);
+                if (alone < 0.5f && blocking == none) blocking = k;
+            }
+            CAPTURE(i);
+            CHECK(together.lit[i] == lit);
+            CHECK(together.caster[i] == blocking);
+        }
+    };
+    std::vector<std::vector<float>> alone;
+    for (std::uint32_t k = 0; k < casters.size(); ++k)
+        alone.push_back(
+            results_of(shadow::exact{}, std::span(casters).subspan(k, 1), parallel(20, 15), list, bounds).lit);
+    check(shadow::exact{}, [&](std::uint32_t k, std::size_t i) { return alone[k][i]; });
+
+    const shadow::light_frame light(parallel(20, 15));
+    std::vector<shadow::height_map> maps;
+    for (const shadow::caster& c : casters) {
+        maps.emplace_back(light, shadow::extent_of(c.box, c.placement, light), 0.02 / 1.5);
+        maps.back().cast(c.mesh, c.placement);
+    }
+    for (const int radius : {0, 8})
+        check(shadow::pcf{.radius = radius}, [&](std::uint32_t k, std::size_t i) {
+            return shadow::lit(maps[k], {light, list[i], glm::dvec3(0)}, radius);
+        });
 }
 
 TEMPLATE_TEST_CASE("No policy gives a sheet shadow acne, whichever way its triangles are wound", "", shadow::map,

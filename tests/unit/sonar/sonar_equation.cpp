@@ -224,7 +224,7 @@ TEST_CASE("A pulse lengthens echoes by its length and preserves energy") {
 
 TEST_CASE("A pulse may be as long as the recorded range, also where floats round its ends") {
     const auto record = [](float first, float range, int bins, float length) {
-        const in::side_scan rig{.first_range = first, .range = range, .pings = 1, .bins = bins};
+        const in::side_scan rig{.pings = 1, .first_range = first, .range = range, .bins = bins};
         return in::render(level_bottom(), rig, in::record_options<>{}.with(in::sonar_equation{in::pulse{length}}));
     };
     CHECK_NOTHROW(record(0, 1, 49, 1));  // 1.0 / 49 * 49 is below 1
