@@ -108,14 +108,12 @@ concept has_mesh = requires(const Shape& shape) {
 /// An immutable mesh: copies refer to the same triangles. Shuffled meshes are reordered, triangles and vertices, for
 /// coherent access; regular grids are reordered by rows; other meshes keep their order. Triangles that are wound
 /// against all of their normals are flipped. The constructor computes what renderers need: bounds, smooth normals if
-/// there are none, whether the mesh is closed or a heightfield, and the regular grid of a heightfield.
+/// there are none, whether the mesh is closed or a heightfield, and the regular grid of a heightfield. One that was
+/// moved from may only be assigned to or destroyed.
 class shared_mesh {
   public:
     /// No triangles.
     shared_mesh() : facts_(std::make_shared<detail::mesh_facts>()) {}
-    /// Moving copies, so that no object is ever without a mesh.
-    shared_mesh(const shared_mesh&) = default;
-    shared_mesh& operator=(const shared_mesh&) = default;
     /// @throws invalid_input for indices or normals that don't match the positions
     INSONIFY_MEMBER shared_mesh(mesh m) : facts_(detail::facts_of(std::move(m))) {}
     /// The mesh of a shape with a `to_mesh`. Primitives skip the analysis, because their type tells its results; a

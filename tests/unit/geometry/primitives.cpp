@@ -272,15 +272,6 @@ TEST_CASE("shared_mesh::of() gives a primitive the properties that analysis find
     check(in::cylinder{.segments = 1 << 20});
 }
 
-TEST_CASE("A shared_mesh that was moved from is whole") {
-    in::shared_mesh from = in::shared_mesh::of(in::cube{});
-    const in::shared_mesh to = std::move(from);
-    CHECK(from->triangles.size() == 12);
-    CHECK(from.box().lower == to.box().lower);
-    from = in::shared_mesh();
-    CHECK(to->triangles.size() == 12);
-}
-
 TEST_CASE("Topology distinguishes open, tangled and closed surfaces") {
     in::mesh m;
     m.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
