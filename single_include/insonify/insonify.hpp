@@ -24204,8 +24204,8 @@ class map_occlusion {
     }
 
   private:
-    static constexpr int side =
-        64;  ///< tiles along either axis of the receivers' extent, which list the maps over them
+    /// Tiles along either axis of the receivers' extent. Each lists the maps over it.
+    static constexpr int side = 64;
 
     /// Column and row of the tile that contains a point (u, v), or of the nearest one.
     glm::ivec2 tile_of(const glm::dvec2& uv) const {
@@ -24216,6 +24216,7 @@ class map_occlusion {
         }
         return tile;
     }
+
     static light_frame parallel(const any_light& light) {
         if (const auto* from_nearby = std::get_if<point_light>(&light)) {
             const glm::dvec3& p = from_nearby->position;
@@ -26656,7 +26657,6 @@ class recorder {
         : scene_(s), track_(track), window_(window), options_(options), equation_(options.equation) {
         materials_ = checked_materials(s, options);
         for (std::size_t i = 0; i < track.size(); ++i) validate(track[i], element_name("track", i));
-        require_above_seabed();
         // Either end is a rounded float, so that the difference may be less than the metres that were meant.
         const double recorded = static_cast<double>(window.range) - static_cast<double>(window.first_range);
         require(equation_.pulse_length() <= recorded + 0x1p-23 * static_cast<double>(window.range), "pulse.length",
@@ -26688,11 +26688,11 @@ class recorder {
     static constexpr std::size_t leg = 4096;  ///< pings that share the sampled seabed
 
     /// Single pings may be below the seabed: they receive nothing.
-    void require_above_seabed() const {
+    void require_above(const seabed::height_range& relief) const {
         if (track_.empty()) return;
         double highest = track_.front().position.z;
         for (const ping& p : track_) highest = (std::max)(highest, p.position.z);
-        seabed::detail::require_above(scene_.seabed.prepare().range(), "altitude of the highest ping", highest);
+        seabed::detail::require_above(relief, "altitude of the highest ping", highest);
     }
 
     double range_of(std::size_t bin) const {
@@ -26708,6 +26708,7 @@ class recorder {
         using tracer = ping_tracer<Law, labelled>;
         bottom_tiles bottom(scene_.seabed, out_.stats.cell);
         const seabed::height_range relief = scene_.seabed.prepare().range();
+        require_above(relief);
         const double cell = out_.stats.cell;
         bin_factors first_losses;  // for all pings if the track is level
         if (!track_.empty()) losses_at(track_.front(), first_losses);

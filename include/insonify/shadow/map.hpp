@@ -90,8 +90,8 @@ class map_occlusion {
     }
 
   private:
-    static constexpr int side =
-        64;  ///< tiles along either axis of the receivers' extent, which list the maps over them
+    /// Tiles along either axis of the receivers' extent. Each lists the maps over it.
+    static constexpr int side = 64;
 
     /// Column and row of the tile that contains a point (u, v), or of the nearest one.
     glm::ivec2 tile_of(const glm::dvec2& uv) const {
@@ -102,6 +102,7 @@ class map_occlusion {
         }
         return tile;
     }
+
     static light_frame parallel(const any_light& light) {
         if (const auto* from_nearby = std::get_if<point_light>(&light)) {
             const glm::dvec3& p = from_nearby->position;
