@@ -88,7 +88,7 @@ int main(int argc, char** argv) try {
     std::size_t per_class = 0;
     const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), per_class);
     if (status != std::errc{} || end != number.data() + number.size() || per_class == 0)
-        throw in::invalid_input("images per class: '" + std::string(number) + "' is not a number from 1");
+        throw in::invalid_input("images per class: '" + std::string(number) + "' is not a whole number of at least 1");
     const auto classes = read_manifest(folder);
     if (classes.empty()) throw in::io_error(folder + ": has no images to show");
 

@@ -21,11 +21,11 @@ int main() {
     const auto stats = in::draw(bottom, [&](const in::vertex& v) { return view(v.position); }, in::depth_target{depth},
                                 {.keep = in::keep_depth::larger, .load = in::depth_load::clear});
 
-    // Depth is z_near / distance, and empty_depth where no surface covers the pixel.
+    // Depth is z_near / distance along the camera's axis, and empty_depth where no surface covers the pixel.
     float nearest = 0;
     for (const float d : depth.pixels()) nearest = (std::max)(nearest, d);
-    std::printf("%llu triangles, the nearest point is %.2f m away\n", static_cast<unsigned long long>(stats.triangles),
-                0.1 / static_cast<double>(nearest));
+    std::printf("%llu triangles, the nearest %.2f m along the camera's axis\n",
+                static_cast<unsigned long long>(stats.triangles), 0.1 / static_cast<double>(nearest));
     const auto shade = [=](float d) { return d > 0 ? 0.8f * d / nearest : 0.0f; };
     in::write_png("depth.png", depth | shade);
 }

@@ -1,4 +1,4 @@
-// All filters on one page: filter_page out.png [picture [reference picture]]
+// Noise, histogram and color filters on one page: filter_page out.png [picture [reference picture]]
 //
 // Each under its name: the filtered picture, and beside it its histogram, dark levels below and light ones above, in
 // front of the unfiltered picture's histogram in gray. Without pictures, a cylinder on rippled sand, with a scale bar.

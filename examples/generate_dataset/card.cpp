@@ -45,7 +45,10 @@ void data_card::add(const json& record) {
             c.sum += v;
         } else {
             const std::string word = value.is_string() ? value.get<std::string>() : value.dump();
-            if (c.words.size() < max_words || c.words.contains(word)) ++c.words[word];
+            if (c.words.size() < max_words || c.words.contains(word))
+                ++c.words[word];
+            else
+                c.has_more_words = true;
         }
         ++c.count;
     }
@@ -81,7 +84,7 @@ std::string data_card::text(const json& config) const {
         }
         std::string list;
         for (const auto& [word, count] : c.words) list += (list.empty() ? "" : ", ") + cell(word) + " " + number(count);
-        counts += "| " + cell(name) + " | " + list + (c.words.size() == max_words ? ", and others" : "") + " |\n";
+        counts += "| " + cell(name) + " | " + list + (c.has_more_words ? ", and others" : "") + " |\n";
     }
     t += "\n## Counts\n\n| parameter | images |\n|---|---|\n" + counts;
     t += "\n## Sampled parameters\n\n| parameter | images | lowest | mean | highest |\n|---|---|---|---|---|\n" +

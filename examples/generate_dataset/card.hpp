@@ -24,6 +24,7 @@ class data_card {
         json first;
         bool is_constant = true;
         std::map<std::string, std::uint64_t> words;  ///< counts of the first 50 distinct values
+        bool has_more_words = false;
     };
     std::uint64_t images_ = 0, bytes_ = 0, files_ = 0;
     std::vector<std::string> names_;  ///< of columns, in the order of the records

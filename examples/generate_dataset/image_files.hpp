@@ -25,7 +25,7 @@ struct finished_image {
     json annotations, parameters;
 };
 
-/// A target or a shadow as an annotation of COCO, but for the numbers that it gets in the whole set.
+/// A COCO annotation of a target or shadow, without its ids, which depend on the whole set.
 /// @param mask_file  `target_mask` or `shadow_mask` if that file is its mask alone, else empty
 /// @param mask       0 outside of the box
 json annotation_of(const std::string& category, const std::string& mask_file, const insonify::rect& box,

@@ -3,8 +3,12 @@
 //     config.json                                   recipe, seed, version and input checksums; decides every byte
 //     images/<class>/<block>/<id>.png               all images of a class
 //     masks/<block>/<id>_{target,shadow,seabed}.png
+//     values/<block>/<id>.{png,npy,pfm}             with --format png16, npy or pfm
 //     records/<block>/<id>.json                     one per image; written last, so that its files are complete
-//     annotations.json  manifest.csv  SHA256SUMS    tables of all records, and their checksums
+//     annotations.json  manifest.csv  README.md     tables of all records, and a data card
+//     webdataset/<block>.tar                        with --format webdataset
+//     SHA256SUMS                                    of the tables
+//     preview.html                                  with --preview
 //     shards.json                                   present until the shards are merged
 //     .partial/  .lock                              unfinished files, and the lock of running generators
 //

@@ -84,7 +84,8 @@ int verify(const generator::options& o, const generator::shared_inputs& shared, 
     return faults > 0 ? 1 : 0;
 }
 
-/// Prints what the run will make. A small set gets no estimate, since estimating draws images.
+/// Prints what the run will make. Of fewer than 256 images it estimates time and bytes only with --dry-run, since
+/// estimating draws some.
 void describe(const generator::options& o, const generator::shared_inputs& shared, int threads) {
     const generator::index_range work = generator::range_of(o.first, o.count, o.shard);
     generator::image_cost cost;
@@ -92,7 +93,7 @@ void describe(const generator::options& o, const generator::shared_inputs& share
     std::fputs(generator::summary_of(o, work, cost, threads).c_str(), o.dry_run ? stdout : stderr);
 }
 
-/// Whether the shards of a set have been joined and this one's images are there, as for a job that was queued again.
+/// Whether the set is merged already and holds this shard's images: a job may be queued again after the merge.
 bool is_joined(const generator::options& o, const std::filesystem::path& root, const generator::json& config) {
     if (std::filesystem::exists(root / "shards.json") || !std::filesystem::exists(root / "manifest.csv")) return false;
     const generator::index_range work = generator::range_of(o.first, o.count, o.shard);
@@ -140,15 +141,20 @@ int generate(const generator::options& o, const generator::shared_inputs& shared
         files.finish();
     });
 
+    const bool is_stopped = stop_signal != 0 && bar.done() < work.size();
     const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
-    if (o.shard.given)
+    if (is_stopped && bar.done() == 0)
+        std::printf("%s: no image finished\n", o.out.c_str());
+    else if (o.shard.given)
         std::printf("%s, shard %llu of %llu: %llu images", o.out.c_str(), number(o.shard.number), number(o.shard.of),
                     number(bar.done()));
     else
         std::printf("%s: %llu images", o.out.c_str(), number(generator::write_tables(root, o.preview, into)));
-    std::printf(", %llu of them new, %.2f images/s\n", number(made), static_cast<double>(made) / bar.elapsed());
-    if (!o.shard.given) std::fputs(generator::where_to_look(o).c_str(), stdout);
-    if (stop_signal != 0 && bar.done() < work.size()) {
+    if (bar.done() > 0) {
+        std::printf(", %llu of them new, %.2f images/s\n", number(made), static_cast<double>(made) / bar.elapsed());
+        if (!o.shard.given) std::fputs(generator::where_to_look(o).c_str(), stdout);
+    }
+    if (is_stopped) {
         std::fprintf(stderr, "Stopped; the same command continues from here.\n");
         return 128 + stop_signal;
     }

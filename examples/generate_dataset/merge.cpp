@@ -67,9 +67,11 @@ void check_complete(const fs::path& root, const json& config, const json& shards
             if (generator::fault_of(root, expected, config, generator::depth::sizes) && lacking++ == 0)
                 example = expected;
         }
-        if (lacking > 0 && missing < 1'000'000 && text.size() < 2000)
+        if (lacking > 0 && text.size() < 2000)
             text += "\n  shard " + std::to_string(k) + "/" + std::to_string(of) + " lacks " + std::to_string(lacking) +
-                    " images, the first is " + generator::id_of(example);
+                    " of its images, such as " + generator::id_of(example);
+        else if (lacking > 0 && !text.ends_with("..."))
+            text += "\n  ...";
         missing += lacking;
     }
     if (missing > 0)

@@ -72,6 +72,9 @@ void check_recipe(const options& o, const is_given& given) {
         return;
     }
     refuse_options(given, {"--empty", "--visible-share"}, "belongs to --recipe sonar");
+    if (o.meshes.empty()) refuse_options(given, {"--mesh-up"}, "needs --mesh");
+    if (o.heightmap.empty()) refuse_options(given, {"--heightmap-spacing", "--heightmap-scale"}, "needs --heightmap");
+    if (o.references.empty() && !o.demo && !o.table) refuse_options(given, {"--match"}, "needs --reference");
     const std::vector<std::string> primitives = primitive_names();
     for (const std::string& target : o.targets)
         if (std::find(primitives.begin(), primitives.end(), target) == primitives.end())
@@ -179,7 +182,7 @@ options parsed(int argc, const char* const* argv,
 
     app.add_option("--plan", plan,
                    "CSV with a line for each image or target, whose values replace random ones: the manifest.csv of a\n"
-                   "set, which makes it again, or a table of targets (id, shape, length, width, height, orientation),\n"
+                   "set, which reproduces it, or a table of targets (id, shape, length, width, height, orientation),\n"
                    "each shown at every aspect on every seabed")
         ->check(CLI::ExistingFile)
         ->group(what);
@@ -284,7 +287,8 @@ options parsed(int argc, const char* const* argv,
         ->check(CLI::IsMember({"gray", "copper"}))
         ->group(look);
     app.add_option("--display", o.display,
-                   "Side-scan images: gray by amplitude, power or decibels (amplitude; recipe sonar: any of them)")
+                   "Side-scan images: gray by amplitude, power or decibels (amplitude; recipe sonar:\n"
+                   "one of these or automatic, at random)")
         ->check(CLI::IsMember({"amplitude", "power", "decibels"}))
         ->group(look);
     app.add_option(
@@ -355,7 +359,11 @@ options parsed(int argc, const char* const* argv,
         const bool needs_map = std::find(o.seabeds.begin(), o.seabeds.end(), "heightmap") != o.seabeds.end();
         if (needs_map && o.heightmap.empty())
             throw CLI::ValidationError("--seabeds", "heightmap needs --heightmap FILE");
-        if (!o.heightmap.empty() && !needs_map && !(o.table && o.table->has("seabed"))) o.seabeds = {"heightmap"};
+        if (!o.heightmap.empty() && !needs_map && !(o.table && o.table->has("seabed"))) {
+            if (given("--seabeds"))
+                throw CLI::ValidationError("--heightmap", "has no effect; add heightmap to --seabeds");
+            o.seabeds = {"heightmap"};
+        }
         if (o.table) apply_plan_count(o, given);
         if (!o.per_class.empty() && !given("--count")) {
             o.count = 0;

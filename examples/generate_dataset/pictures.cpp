@@ -43,8 +43,19 @@ json parameters_of(const options& o, const plan& p, const rendered_image& d) {
     return parameters;
 }
 
-/// Replaces the library's name of an argument by the options that decide it.
-std::string with_option_names(std::string message) {
+/// Replaces the library's name of an argument by the options that decide it, in recipe sonar by the columns.
+std::string with_option_names(std::string message, bool is_sonar) {
+    constexpr const char* columns[][2] = {{"side_scan.altitude", "altitude_m"},
+                                          {"side_scan.ping_spacing", "the ping spacing (track_m over size_px)"},
+                                          {"side_scan.range", "the range (first_range_m, chip_m)"},
+                                          {"side_scan.first_range", "first_range_m"},
+                                          {"pings in the horizontal beam", "pings in the beam (beam_rad, track_m)"}};
+    if (is_sonar) {
+        for (const auto& [from, to] : columns)
+            if (const std::size_t at = message.find(from); at != std::string::npos)
+                return message.replace(at, std::string_view(from).size(), to);
+        return message;
+    }
     constexpr const char* names[][2] = {{"overhead.altitude", "--altitude"},
                                         {"overhead.field_of_view", "the field of view (--chip over --altitude)"},
                                         {"overhead.grazing", "--grazing"},
@@ -100,7 +111,7 @@ std::vector<file> files_of(const options& all, std::uint64_t i, const shared_inp
     } catch (const plan_error&) {
         throw;
     } catch (const in::invalid_input& error) {
-        throw in::io_error(where + with_option_names(error.what()));
+        throw in::io_error(where + with_option_names(error.what(), all.is_sonar()));
     } catch (const in::io_error& error) {
         throw in::io_error(where + error.what());
     }
@@ -113,6 +124,11 @@ void check_plan(const options& o, const shared_inputs& shared) {
     if (o.is_sonar()) return check_columns(o, columns_of_sonar_recipe(without));
     const plan example = plan_image(without, 0, shared);
     check_columns(o, {example.values, example.choices, class_names(o)});
+    // Some columns have a meaning, and their values are checked, in some modes and on some seabeds only.
+    for (std::uint64_t i = 0; i < o.table->size() * views_of_each(o); i += views_of_each(o)) {
+        const plan_row line = line_of_plan(o, i);
+        static_cast<void>(plan_image(with_line(o, line), image_id(o, i), view_of(o, i), shared, &line));
+    }
 }
 
 void set_png_compression() {

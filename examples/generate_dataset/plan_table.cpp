@@ -98,7 +98,7 @@ void plan_table::name_columns(std::vector<std::string>& first, std::size_t line)
         columns_ = cells == published_columns.size() ? published_columns : published_short;
         if (cells != columns_.size())
             fail("has " + std::to_string(cells) +
-                 " numbers and no header; add one, or give the 9 or 7 columns of the published table");
+                 " cells, all numbers; add a header line, or give the 9 or 7 columns of the published table");
         columns_.resize(first.size());
         return;
     }
@@ -133,7 +133,8 @@ void plan_table::scan() {
         // Ids are unique in a table of targets; in a manifest many lines share a target.
         if (target != nullptr && !has_ids()) {
             const auto [known, is_new] = lines_of_targets.try_emplace(*target, reader.line());
-            if (!is_new) row.refuse("target_id", "another than in line " + std::to_string(known->second));
+            if (!is_new)
+                row.refuse("target_id", "a value that line " + std::to_string(known->second) + " does not have");
         }
         add_classes(row);
         rows_.push_back({row.whole("index", rows_.size(), 0, max_images - 1), reader.begin(), reader.line()});
@@ -143,7 +144,7 @@ void plan_table::scan() {
               [](const line_entry& a, const line_entry& b) { return a.id != b.id ? a.id < b.id : a.line < b.line; });
     for (std::size_t i = 1; i < rows_.size(); ++i)
         if (rows_[i].id == rows_[i - 1].id)
-            row(i).refuse("index", "another than in line " + std::to_string(rows_[i - 1].line));
+            row(i).refuse("index", "a value that line " + std::to_string(rows_[i - 1].line) + " does not have");
 }
 
 void plan_table::check_length(const std::vector<std::string>& cells, std::size_t line) const {

@@ -104,6 +104,7 @@ class Plans(unittest.TestCase):
             self.assertEqual((first / row["file"]).read_bytes(), (self.folder / "s" / row["file"]).read_bytes())
         self.assertIn("column reference_name has", refusal("--out", self.folder / "x", "--plan", first / "manifest.csv",
                                                            *(inputs[:2] + inputs[6:])))
+        self.assertFalse((self.folder / "x").exists())
         self.assertIn("column heightmap_spacing_m has '0.1'", refusal("--out", self.folder / "x", "--plan",
                                                                       first / "manifest.csv", *inputs, "--heightmap-spacing", 1))
 
@@ -289,7 +290,7 @@ class Plans(unittest.TestCase):
                 ("index,white\n0,3\n", "line 1: has no column class"),
                 ("index,class,class\n0,ship,ship\n", "line 1: names the column 'class' twice"),
                 ("index;class\n0;ship\n", "separate cells by commas"),
-                ("1,2,3\n", "line 1", "3 numbers and no header"),
+                ("1,2,3\n", "line 1", "3 cells, all numbers"),
                 (head + "0,ship,4\n", "line 2", "column has_clutter is missing"),
                 (head + "0,ship,4,true,5\n", "line 2", "'5' is too many"),
                 (head + "\n0,ship,nan,true\n", "line 3: column white has 'nan', expected a number"),

@@ -63,7 +63,8 @@ const numeric = names.map((_, i) => i).filter(i => {
 const block = id => "masks/" + id.slice(0, 6) + "/" + id + "_";
 const value = (r, name) => names.includes(name) ? r[at.first + names.indexOf(name)] : null;
 const extent = r => {
-  const turn = value(r, "turn") || 0, metres = value(r, "metres_per_pixel") * value(r, "size_px");
+  const turn = value(r, "turn") || 0;
+  const metres = value(r, turn % 2 ? "metres_per_row" : "metres_per_pixel") * value(r, "size_px");
   return metres ? Number(metres.toPrecision(3)) + " m " + "\u2192\u2191\u2190\u2193"[turn < 4 ? turn : (turn + 2) % 4] : "";
 };
 let shown = rows, cells = new Map();
@@ -157,7 +158,7 @@ void preview_page::add(const json& record) {
     rows_.push_back(embedded(row));
     if (rows_.size() <= max_rows) return;
     step_ *= 2;
-    for (std::size_t i = 0; 2 * i < rows_.size(); ++i) rows_[i] = std::move(rows_[2 * i]);
+    for (std::size_t i = 1; 2 * i < rows_.size(); ++i) rows_[i] = std::move(rows_[2 * i]);
     rows_.resize((rows_.size() + 1) / 2);
 }
 

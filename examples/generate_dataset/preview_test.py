@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Opens preview.html of a data set in headless Chromium and uses its controls: preview_test.py <generate_dataset>
 
-INSONIFY_PREVIEW: number of images of the set (300; tools/test --full: 10000). Exit code 77: Chromium not found.
+INSONIFY_PREVIEW: number of images of the set (300; tools/test --full: 20100, of which the page shows every second one).
+Exit code 77: Chromium not found.
 """
 
 import json
@@ -16,6 +17,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tests"))
 from browser import Browser, chromium_program
 
 COUNT = int(os.environ.get("INSONIFY_PREVIEW", "300"))
+SHOWN = COUNT if COUNT <= 20000 else (COUNT + 1) // 2
 DRIVER = """
 (async () => {
   const faults = [], $ = id => document.getElementById(id);
@@ -32,7 +34,7 @@ DRIVER = """
     return false;
   };
   const count = () => Number($("count").textContent.split(" ")[0]);
-  expect("all images are shown: " + count(), count() === COUNT);
+  expect("all images are shown: " + count(), count() === SHOWN);
   expect("only cells in view are in the page: " + cells().length, cells().length > 0 && cells().length < 200);
   expect("thumbnails load", await loaded());
   const classes = [...$("class").options].map(o => o.value).filter(Boolean);
@@ -42,11 +44,11 @@ DRIVER = """
     sum += count();
     expect("a class filter shows only its class", cells().every(c => c.title.includes("class: " + name)));
   }
-  expect("classes add up: " + sum, sum === COUNT && classes.length === 4);
+  expect("classes add up: " + sum, sum === SHOWN && classes.length === 4);
   set("class", "");
   sum = 0;
   for (const o of [...$("bottom").options].slice(1)) { set("bottom", o.value); sum += count(); }
-  expect("bottoms add up: " + sum, sum === COUNT);
+  expect("bottoms add up: " + sum, sum === SHOWN);
   set("bottom", "");
   const column = names.indexOf("slant_range_m"), values = rows.map(r => r[3 + column]).sort((a, b) => a - b);
   set("column", column);
@@ -70,12 +72,43 @@ DRIVER = """
   const charts = document.querySelectorAll(".bars");
   expect("there are histograms: " + charts.length, charts.length > 10);
   for (const bars of charts)
-    expect("a histogram counts all", [...bars.children].reduce((n, b) => n + Number(b.title), 0) <= COUNT);
+    expect("a histogram counts all", [...bars.children].reduce((n, b) => n + Number(b.title), 0) <= SHOWN);
   const start = performance.now();
   for (const name of classes) set("class", name);
   return JSON.stringify({faults, filter_ms: (performance.now() - start) / classes.length});
 })()
-""".replace("COUNT", str(COUNT))
+""".replace("SHOWN", str(SHOWN))
+# Charts of the recipe sonar may be turned; the tag of an image is its extent in range, which then runs up or down.
+TURNED = """
+(() => {
+  const faults = [], of = (r, name) => r[3 + names.indexOf(name)];
+  let sideways = 0;
+  for (const r of rows) {
+    const turn = of(r, "turn") % 2, [metres, , arrow] = extent(r).split(" ");
+    const across = of(r, turn ? "metres_per_row" : "metres_per_pixel") * of(r, "size_px");
+    if (Math.abs(metres / across - 1) > 0.01) faults.push(r[0] + " is " + across + " m in range, and tagged " + metres);
+    if (turn !== ("\u2191\u2193".includes(arrow) ? 1 : 0)) faults.push(r[0] + " has turn " + turn + " and " + arrow);
+    sideways += turn;
+  }
+  if (!sideways) faults.push("no image is turned");
+  return JSON.stringify({faults});
+})()
+"""
+
+
+def used(browser, page, script):
+    """The answer of a script in a page."""
+    session = browser.open(page.as_uri())
+    answer = browser.call("Runtime.evaluate", session, expression=script, awaitPromise=True)
+    if "value" not in answer.get("result", {}):
+        raise RuntimeError(json.dumps(answer)[:500])
+    return json.loads(answer["result"]["value"])
+
+
+def preview(out, *options):
+    """The page of a set that is made with these options."""
+    subprocess.run([sys.argv[1], "--out", out, *options, "--preview"], check=True)
+    return out / "preview.html"
 
 
 def main():
@@ -84,20 +117,15 @@ def main():
         print("skipped: Chromium not found")
         sys.exit(77)
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-        out = pathlib.Path(folder) / "a <set> & more"
-        subprocess.run([sys.argv[1], "--out", out, "--recipe", "published", "--size", "32", "--count", str(COUNT), "--preview"], check=True)
-        page = out / "preview.html"
+        page = preview(pathlib.Path(folder) / "a <set> & more", "--recipe", "published", "--size", "32", "--count", str(COUNT))
+        turned = preview(pathlib.Path(folder) / "turned", "--count", "40")
         browser = Browser(chromium, str(pathlib.Path(folder) / "profile"))
         try:
             start = time.monotonic()
-            session = browser.open(page.as_uri())
-            opened = time.monotonic() - start
-            answer = browser.call("Runtime.evaluate", session, expression=DRIVER, awaitPromise=True)
-            if "value" not in answer.get("result", {}):
-                raise RuntimeError(json.dumps(answer)[:500])
-            found = json.loads(answer["result"]["value"])
-            print(f"{COUNT} images: {page.stat().st_size / 1e6:.2f} MB, opened in {opened:.1f} s, a filter takes "
-                  f"{found['filter_ms']:.0f} ms")
+            found = used(browser, page, DRIVER)
+            print(f"{COUNT} images: {page.stat().st_size / 1e6:.2f} MB, used in {time.monotonic() - start:.1f} s, a filter "
+                  f"takes {found['filter_ms']:.0f} ms")
+            found["faults"] += used(browser, turned, TURNED)["faults"]
         finally:
             browser.process.kill()
             browser.process.wait()

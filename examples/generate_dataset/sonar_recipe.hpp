@@ -221,10 +221,10 @@ inline void sample_bottom(sampler& s, sonar_plan& p, double pixel, const view_of
     p.tone.seed = s.word("tone_seed");
 
     p.clutter = s.whole("clutter", 1, 9);
-    if (!s.chance("has_clutter", p.class_name == empty_class ? 0.1 : 0.3)) p.clutter = 0;
+    if (!s.chance("has_clutter", p.class_name == empty_class ? 0.1 : 0.3)) p.clutter = 0, s.drop("clutter");
     // Debris lies around a wreck.
     p.debris = s.whole("debris", 3, 36);
-    if (!s.chance("has_debris", found.debris) || p.targets.empty()) p.debris = 0;
+    if (!s.chance("has_debris", found.debris) || p.targets.empty()) p.debris = 0, s.drop("debris");
     p.clutter_size = s.derived("clutter_size_m", pixel * s.uniform("clutter_px", 1.2, 4.5));
     p.clutter_seed = s.word("clutter_seed");
 }
@@ -353,7 +353,8 @@ inline sonar_plan sample_image(const options& o, sampler& s, const view_of_targe
     // A ping is one row at any speed of the vehicle: pixels are stretched along the track.
     p.track = s.derived("track_m", crop * crop * p.chip * s.logarithmic("ping_stretch", 0.67, 1.5));
 
-    // Candidates have a range beyond the chip's width; the finest sonars are not used for the largest chips.
+    // Candidates reach beyond the chip's width, but at most 60 times as far: long-range sonars are too coarse for
+    // small chips.
     std::vector<weighted> sonars;
     bool any_fits = false;
     for (const in::instrument& i : in::instruments::all) {
@@ -369,7 +370,7 @@ inline sonar_plan sample_image(const options& o, sampler& s, const view_of_targe
     const double reach = (std::max)((std::min)(static_cast<double>(p.sonar.range), sharp), 1.3 * p.chip);
     const double lead = p.targets.empty() ? 0.5 : std::clamp(p.targets.front().across, 0.05, 1.0);
     // The slant range to the target is anything that the sonar's range allows. The altitude gives it the grazing angle
-    // of survey or inspection lines. Unless the water column is to be in view, the target lies beyond the first return.
+    // of survey or inspection lines. Unless the water column is to be in view, the chip begins beyond the first return.
     const double sine = in::numeric::sin_cos(in::numeric::to_radians(s.logarithmic("survey_grazing_deg", 10, 44))).sine;
     double slant = lead * p.chip + s.uniform("range_share", 0.03, 1) * (reach - p.chip);
     if (!s.chance("water_in_view", empty ? 0.04 : 0.2))

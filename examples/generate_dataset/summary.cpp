@@ -18,12 +18,15 @@ std::string class_of(const options& o, std::uint64_t i) {
     return name.empty() ? "named by the plan" : name;
 }
 
-/// "ship 300, plane 300": exact, or scaled up from the first hundred thousand images.
+/// "ship 300, plane 300": exact, or scaled up from a hundred thousand images spread over the set.
 std::string classes_text(const options& o, const index_range& work) {
     constexpr std::uint64_t limit = 100'000;
     const std::uint64_t sampled = (std::min)(work.size(), limit);
+    const auto spread = [](std::uint64_t i, std::uint64_t n, std::uint64_t over) {
+        return over / n * i + over % n * i / n;
+    };
     std::map<std::string, std::uint64_t> counts;
-    for (std::uint64_t i = 0; i < sampled; ++i) ++counts[class_of(o, work.first + i)];
+    for (std::uint64_t i = 0; i < sampled; ++i) ++counts[class_of(o, work.first + spread(i, sampled, work.size()))];
     std::string text;
     for (const auto& [name, count] : counts) {
         const double share = static_cast<double>(count) / static_cast<double>(sampled);

@@ -175,6 +175,7 @@ std::uint64_t write_once(const fs::path& root, bool preview, staging& into) {
             ++annotation_id;
         }
     });
+    if (images == 0) throw insonify::io_error(root.string() + ": holds no images yet");
     coco.write("\n],\"annotations\":[\n");
     annotations.read_back([&](std::string_view bytes) { coco.write(bytes); });
     coco.write("\n]}\n");

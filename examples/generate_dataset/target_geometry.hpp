@@ -55,7 +55,8 @@ target_geometry geometry_of(const in::side_scan_rig<Axis>& rig, const in::target
     f.shadow = slant ? s.slant_length : s.tip - s.ground_range;
     const int end = seen.shadow_box.x1;
     if (s.tip > 0 && seen.shadow_area > 0) f.shadow_measured = f.left_edge + end * f.metres_per_pixel - echo;
-    f.shadow_is_cut = end >= rig.bins;
+    const bool is_beyond = seen.shadow_area == 0 && s.tip > 0 && echo + f.shadow > static_cast<double>(rig.range);
+    f.shadow_is_cut = end >= rig.bins || is_beyond;
     return f;
 }
 
@@ -85,7 +86,7 @@ inline target_geometry geometry_of(const in::overhead_geometry& view, const in::
     f.shadow = farthest - foot;
     const int end = seen.shadow_box.x1;
     if (f.shadow > 0 && seen.shadow_area > 0) f.shadow_measured = f.left_edge + end * f.metres_per_pixel - foot;
-    f.shadow_is_cut = end >= rig.size.x;
+    f.shadow_is_cut = end >= rig.size.x || (seen.shadow_area == 0 && f.shadow > 0 && farthest > half.x);
     return f;
 }
 

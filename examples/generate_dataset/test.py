@@ -217,6 +217,18 @@ class Generator(unittest.TestCase):
         for image in listed:
             self.assertTrue((self.folder / "a" / image["file_name"]).exists())
 
+    def test_a_run_that_is_stopped_before_its_first_image_says_how_to_go_on(self):
+        out = self.folder / "a"
+        process = subprocess.Popen([GENERATOR, "--out", out, "--recipe", "published", "--size", "2048", "--count", "400"],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        while not (out / "config.json").exists() and process.poll() is None:
+            time.sleep(0.001)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertIn("continues from here", errors)
+        self.assertIn("holds no images yet", run(out, program=MERGE, expect=1))
+
     def test_annotations_are_consistent_coco(self):
         run("--out", self.folder / "a", *SMALL)
         coco = json.loads((self.folder / "a" / "annotations.json").read_text())
@@ -453,6 +465,16 @@ class Generator(unittest.TestCase):
             self.assertIn(f"{option}: belongs to --recipe published",
                           refusal("--recipe", "sonar", "--out", "x", option, value))
         self.assertIn("belongs to --recipe sonar", refusal("--out", "x", "--empty", "0.5"))
+
+    def test_options_without_the_one_that_they_describe_are_refused(self):
+        for option, value, needed in (("--mesh-up", "z", "--mesh"), ("--heightmap-spacing", 1, "--heightmap"),
+                                      ("--heightmap-scale", 1, "--heightmap"), ("--match", "whole", "--reference")):
+            self.assertIn(f"{option}: needs {needed}", refusal("--out", "x", "--recipe", "published", option, value))
+        (self.folder / "map.pgm").write_bytes(b"P5 2 2 255\n\0\1\2\3")
+        self.assertIn("--heightmap: has no effect; add heightmap to --seabeds",
+                      refusal("--out", "x", "--recipe", "published", "--heightmap", self.folder / "map.pgm", "--seabeds", "mud"))
+
+    def test_targets_of_the_other_recipe_are_refused(self):
         self.assertIn("belongs to --recipe sonar", refusal("--out", "x", "--targets", "ship"))
 
     def test_options_of_other_modes_are_refused(self):
@@ -947,7 +969,7 @@ class Shards(unittest.TestCase):
         folders = [self.folder / f"s{k}" for k in range(8)]
         text = run(self.folder / "a", *folders[:3], *folders[4:7], program=MERGE, expect=1)
         self.assertIn("2 of 8 images are missing", text)
-        self.assertIn("shard 3/8 lacks 1 images, the first is 000000003", text)
+        self.assertIn("shard 3/8 lacks 1 of its images, such as 000000003", text)
         self.assertIn("no: holds no data set", run(self.folder / "b", folders[0], self.folder / "no", program=MERGE, expect=1))
         self.assertFalse((self.folder / "b").exists())
         self.assertFalse((self.folder / "a" / "annotations.json").exists())
@@ -966,8 +988,8 @@ class Shards(unittest.TestCase):
         (self.folder / "a" / "masks" / "000000" / "000000006_target.png").write_bytes(b"")
         text = run(self.folder / "a", program=MERGE, expect=1)
         self.assertIn("2 of 8 images are missing or damaged", text)
-        self.assertIn("shard 0/2 lacks 1 images, the first is 000000001", text)
-        self.assertIn("shard 1/2 lacks 1 images, the first is 000000006", text)
+        self.assertIn("shard 0/2 lacks 1 of its images, such as 000000001", text)
+        self.assertIn("shard 1/2 lacks 1 of its images, such as 000000006", text)
         for k in range(2):
             run("--out", self.folder / "a", *SMALL, "--shard", f"{k}/2")
         run(self.folder / "a", program=MERGE)
@@ -979,7 +1001,7 @@ class Shards(unittest.TestCase):
         shutil.copytree(self.folder / "s6" / "records", self.folder / "s5" / "records", dirs_exist_ok=True)
         for name in "images", "masks":
             shutil.copytree(self.folder / "s6" / name, self.folder / "s5" / name, dirs_exist_ok=True)
-        self.assertIn("shard 1/2 lacks 4 images", run(self.folder / "s5", program=MERGE, expect=1))
+        self.assertIn("shard 1/2 lacks 4 of its images", run(self.folder / "s5", program=MERGE, expect=1))
         (self.folder / "s5" / "shards.json").unlink()
         self.assertIn("is of another set, with seed 6 instead of 5", run(self.folder / "s5", program=MERGE, expect=1))
         faults = run("--out", self.folder / "s5", *SMALL, "--verify", expect=1)

@@ -5,7 +5,8 @@
 //     INSONIFY_SIMD           1 (default where the compiler has vector extensions) or 0: everything scalar, same bytes
 //     INSONIFY_WHOLE_KERNELS  1 (default with optimization) or 0: see below
 //     INSONIFY_ASSERT(x)      internal invariants; default: assert(x)
-//     INSONIFY_THROW(e)       how an error leaves the library when exceptions are off; must not return
+//     INSONIFY_THROW(e)       how an error leaves the library when exceptions are off; must not return. Without it the
+//                             message goes to stderr and the program is terminated
 //     INSONIFY_COMPILED       the compiled form (see compiled.hpp): this unit declares what one unit compiles
 //     INSONIFY_IMPLEMENTATION this is the unit that compiles it
 //

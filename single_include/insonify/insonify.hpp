@@ -41,7 +41,8 @@
 //     INSONIFY_SIMD           1 (default where the compiler has vector extensions) or 0: everything scalar, same bytes
 //     INSONIFY_WHOLE_KERNELS  1 (default with optimization) or 0: see below
 //     INSONIFY_ASSERT(x)      internal invariants; default: assert(x)
-//     INSONIFY_THROW(e)       how an error leaves the library when exceptions are off; must not return
+//     INSONIFY_THROW(e)       how an error leaves the library when exceptions are off; must not return. Without it the
+//                             message goes to stderr and the program is terminated
 //     INSONIFY_COMPILED       the compiled form (see compiled.hpp): this unit declares what one unit compiles
 //     INSONIFY_IMPLEMENTATION this is the unit that compiles it
 //
@@ -401,8 +402,8 @@ using shared_pool = std::shared_ptr<block_pool>;
 }  // namespace insonify
 
 // ------------ insonify/core/detail/portable.hpp ---------------------------------------------------------
-// Parts of the C++20 library that some standard libraries lack: libc++ has std::bit_cast from version 14 on, floats in
-// std::from_chars from 20 on and in std::to_chars from 14 on.
+// Parts of the C++20 library that some standard libraries lack: libc++ has std::bit_cast from version 14 on, and floats
+// in both std::from_chars and std::to_chars from 20 on.
 
 #include <charconv>
 #include <clocale>
@@ -437,8 +438,8 @@ constexpr To bit_cast(const From& from) noexcept {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Reads all of a text as a decimal number, with a sign or without, whatever the locale. Numbers beyond those of a
-/// double become 0 or infinite.
+/// Reads all of a text as a decimal number, `inf` or `nan`, with a sign or without, whatever the locale. Numbers beyond
+/// those of a double become 0 or infinite.
 /// @returns whether the text is a number
 inline bool parse_number(std::string_view text, double& value) {
     // from_chars does not accept a plus sign.
@@ -447,9 +448,14 @@ inline bool parse_number(std::string_view text, double& value) {
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (status == std::errc::invalid_argument || end != text.data() + text.size()) return false;
     if (status == std::errc::result_out_of_range) {
-        // The status does not tell which end of the range was left.
-        const bool is_tiny = text.find("e-") != text.npos || text.find("E-") != text.npos;
-        value = is_tiny ? 0 : (text[0] == '-' ? -1 : 1) * std::numeric_limits<double>::infinity();
+        // The status does not tell which end of the range was left; the decimal exponent of the first digit that is
+        // not 0 does.
+        const std::size_t mark = (std::min)(text.find_first_of("eE"), text.size());
+        const std::size_t point = (std::min)(text.find('.'), mark), first = text.find_first_of("123456789");
+        double exponent = 0;
+        if (mark < text.size()) parse_number(text.substr(mark + 1), exponent);
+        exponent += static_cast<double>(point) - static_cast<double>(first);
+        value = exponent < 0 ? 0 : (text[0] == '-' ? -1 : 1) * std::numeric_limits<double>::infinity();
     }
     return true;
 #else
@@ -465,7 +471,8 @@ inline bool parse_number(std::string_view text, double& value) {
 #endif
 }
 
-/// The shortest text that reads back as the same number, without the locale; returns its end.
+/// Writes the shortest text that reads back as the same number, whatever the locale, without a zero at its end.
+/// @returns the end of the text
 template <class Number>
 char* format_number(char* first, char* last, Number value) {
 #if !defined(__cpp_lib_to_chars)
@@ -514,6 +521,7 @@ struct io_error : std::runtime_error {
 
 namespace detail::inline INSONIFY_FLAGS {
 
+/// Throws the error. Without exceptions it calls INSONIFY_THROW, or else writes the message to stderr and terminates.
 template <class Error>
 [[noreturn]] void raise(Error error) {
 #if defined(__cpp_exceptions)
@@ -681,8 +689,9 @@ void bulk_ranges(E& ex, std::size_t count, std::size_t grain, Fn&& fn) {
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Pass one in place of the executor: large temporaries and the images of results take their memory from it and return
-/// it when they are destroyed, so that the next frame finds it mapped. Without one, every frame allocates afresh.
+/// Pass one in place of the executor: the renderers' large temporaries, and the images of pictures and pixel filters,
+/// take their memory from it and return it when they are destroyed, so that the next frame finds it mapped. Without
+/// one, every frame allocates afresh.
 ///
 ///     in::thread_pool pool;
 ///     in::context context(pool);
@@ -1148,11 +1157,11 @@ inline double widened(float value) {
     return static_cast<double>(value);
 }
 
-/// Tests the exponent bits, so that no compiler flag can optimize the test away.
+/// Whether a value is neither infinite nor NaN. Tests the exponent bits, so that no compiler flag can remove the test.
 constexpr bool is_finite(float value) {
     return (numeric::bit_cast<std::uint32_t>(value) & 0x7F800000u) != 0x7F800000u;
 }
-/// Whether a value is neither infinite nor NaN.
+/// The same for a double.
 constexpr bool is_finite(double value) {
     return (numeric::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
 }
@@ -1178,8 +1187,8 @@ constexpr std::int64_t floor_to_int(double value) {
     return truncated - (static_cast<double>(truncated) > value ? 1 : 0);
 }
 
-/// Rounds a length, above 0 and finite, to eight significant bits: its multiples are exact in double, so that nodes at
-/// multiples of it are the same in every row.
+/// Rounds a length, a positive normal number, to eight significant bits: its multiples are exact in double, so that
+/// nodes at multiples of it are the same in every row.
 inline double rounded_to_eight_bits(double length) {
     double unit = 1;
     while (unit * 256 <= length) unit *= 2;
@@ -1270,7 +1279,7 @@ constexpr double pow(double x, double y) {
     return y == 0 ? 1.0 : x == 0 ? (y > 0 ? 0.0 : std::numeric_limits<double>::infinity()) : exp(y * log(x));
 }
 
-/// Arc tangent of y / x in (-pi, pi], absolute error < 1e-15; (0, 0) gives 0.
+/// Arc tangent of y / x in [-pi, pi], absolute error < 1e-15; (0, 0) gives 0, two infinities NaN.
 inline double atan2(double y, double x) {
     const double ax = x < 0 ? -x : x, ay = y < 0 ? -y : y;
     const double larger = ax > ay ? ax : ay, smaller = ax > ay ? ay : ax;
@@ -1433,11 +1442,11 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/core/simd/dispatch.hpp -----------------------------------------------------------
 // Run-time dispatch: a kernel is written once over a lane count and compiled for several instruction sets.
 //
-// A kernel is a function object with `template <int N> INSONIFY_INLINE void run() const`, where N is the
-// number of 32-bit values that it processes at a time. Its arithmetic is the same in every lane at every N, and
+// A kernel is a struct with `template <int N> INSONIFY_INLINE void run() const`, where N is the number of 32-bit values
+// that it processes at a time. Its arithmetic is the same in every lane at every N, and
 // products are never fused with sums, so all levels give the same bytes; N = 1 is scalar code, compiled where
-// INSONIFY_SIMD is 0. Kernels use AVX-512 only if they state their lane count there, `static constexpr int avx512_lanes
-// = 16`, which is for those that gain more than a tenth: each copy costs compile time.
+// INSONIFY_SIMD is 0. Kernels that gain more than a tenth from AVX-512 declare `static constexpr int avx512_lanes =
+// 16`; the others have no copy for it, since each costs compile time.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -1898,7 +1907,7 @@ void dequantize_row(std::span<const Code> from, std::span<float> to) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/simd/elementary.hpp ---------------------------------------------------------
-// Elementary functions over SIMD lanes: logarithms, cosine and sine, floor, square root.
+// Elementary functions over SIMD lanes: logarithms, cosine and sine, floor, square root of doubles.
 //
 // Every function gives the same bits at every N; its comment states its accuracy.
 
@@ -1961,7 +1970,7 @@ INSONIFY_INLINE void floor_lanes(lanes<double, N>& into, const lanes<double, N>&
     into = nearest > x ? nearest - 1.0 : nearest;
 }
 
-/// Cosine and sine of x turns, 0 < x < 1, by Taylor series around the nearest quarter turn; absolute error below 3e-16.
+/// Cosine and sine of x turns, 0 < x < 1, by Taylor series around the nearest quarter turn; absolute error below 4e-16.
 template <int N>
 INSONIFY_INLINE void cos_sin_turns(lanes<double, N>& cosine, lanes<double, N>& sine, const lanes<double, N>& x) {
     using doubles = lanes<double, N>;
@@ -2166,8 +2175,8 @@ INSONIFY_ARITHMETIC_END
 // SIMD versions of random.hpp: Philox blocks, uniform and normal draws, as doubles and as floats.
 //
 // Doubles are bit-identical to the draws of random.hpp. Floats have the same distribution up to rounding: a normal draw
-// differs by less than 6e-7 from exact arithmetic on its two words, and no probability differs by more than 6e-8. Both
-// give the same bits at every N.
+// differs by less than 6e-7 from exact arithmetic on its two words in 2^18 draws, and no probability differs by more
+// than 6e-8. Both give the same bits at every N.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -2175,8 +2184,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The products of the lower halves of the lanes with a word. Four lanes are for AVX2, eight for AVX-512: kernels of W
-/// lanes of 32 bits have W / 2 of these.
+/// Multiplies the lower halves of the lanes by a word. N is 2, 4 or 8 for SSE2, AVX2 and AVX-512: half as many as lanes
+/// of 32 bits.
 template <int N>
 INSONIFY_INLINE void multiply_words(lanes<std::uint64_t, N>& into, const lanes<std::uint64_t, N>& a, std::uint32_t b) {
     // One instruction, which clang selects by itself and g++ does not.
@@ -2330,7 +2339,7 @@ INSONIFY_INLINE void log_uniform_lanes(lanes<float, N>& into, const lanes<std::u
     log_lanes<N>(into, k, floats(shifted >= 0 ? 0.0f - from_end : m - 1.0f));
 }
 
-/// Two independent standard normal draws of two words, as normal_pair's.
+/// Two independent standard normal draws from two words, as `normal_pair`.
 template <int N>
 INSONIFY_INLINE void normal_lanes(lanes<float, N>& first, lanes<float, N>& second, const lanes<std::uint32_t, N>& a,
                                   const lanes<std::uint32_t, N>& b) {
@@ -2493,8 +2502,9 @@ constexpr rect merge(const rect& a, const rect& b) {
 //     measured  f.pass(view) reads the whole image and returns a function as below
 //     pixel     f(pixel), f(pixel, x, y), or f.pass() that returns such a function   -> pixel
 //
-// The function of a measured filter must not refer to the view: pixels may be replaced while it runs, and the image may
-// no longer exist. A filter that reads other pixels is an image filter.
+// A measured filter may also have `f.pass(view, executor)`, which is called instead, to measure on the threads of the
+// chain. The function of a measured filter must not refer to the view: pixels may be replaced while it runs, and the
+// image may no longer exist. A filter that reads other pixels is an image filter.
 //
 // `pass` returns a value, which is copied for each band of rows: it may keep state between pixels. It may process up to
 // run_length adjacent pixels at once by `row(from, to, count, x, y)`, to[i] = fn(from[i], x + i, y), where `to` may be
@@ -3310,7 +3320,8 @@ struct draw_kernel {
     }
 };
 
-/// Buffer for the draws of a run, with room for those of its first block before the run and of the last lanes past it.
+/// Buffer for the draws of a run. Up to 3 more are written before it, the rest of its first block, and up to 60 after
+/// it, which fill the last lanes.
 using draw_buffer = float[run_length + 64];
 
 /// Writes independent draws, one for each pixel and `field`, and returns the first; they lie in `buffer`.
@@ -3578,7 +3589,7 @@ class correlated_draws {
     dynamic_array<const float*> rows_;
 };
 
-/// Draws that are independent until `correlate` is called.
+/// Draws that are independent, or correlated by a length or by taps.
 template <class Draws>
 class field_draws {
   public:
@@ -3636,7 +3647,7 @@ class gamma_texture {
         expand(shape);
     }
 
-    /// The number at the probability of a standard normal number z.
+    /// The gamma quantile at the probability Phi(z).
     float operator()(float z) const {
         const float place = (std::min)((std::max)(z + static_cast<float>(reach), 0.0f) * static_cast<float>(1 / step),
                                        static_cast<float>(knots - 2));
@@ -3660,7 +3671,7 @@ class gamma_texture {
 
     /// Integrates the density of y = ln t, exp(shape (1 + y - e^y)), and reads it off at normal probabilities.
     void tabulate(double shape) {
-        const double spread = numeric::square_root(160 / shape) + 60 / shape;  // beyond: less than e^-40
+        const double spread = numeric::square_root(160 / shape) + 60 / shape;  // where the density is e^-40 of its peak
         const double low = -(std::min)(spread, 60.0), high = numeric::log(1 + spread), dy = (high - low) / intervals;
         const auto density = [&](double y) { return numeric::exp(shape * (1 + y - numeric::exp(y))); };
         dynamic_array<double> below{density(low) / shape};  // the tail to the left is exponential
@@ -3670,7 +3681,7 @@ class gamma_texture {
             below.push_back(below.back() + 0.5 * dy * (last + next));
             last = next;
         }
-        double probability = 1.2798e-12;  // of less than -7
+        double probability = 1.2798e-12;  // Phi(-7)
         std::size_t i = 0;
         for (std::size_t k = 0; k < knots; ++k) {
             const double z = static_cast<double>(k) * step - reach;
@@ -4569,7 +4580,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Bits that compare as unsigned integers the way floats compare, and back.
+/// Bits that compare as unsigned integers the way floats compare, and back; -0 lies below +0, NaN at the ends.
 constexpr std::uint32_t ordered_bits(float value) {
     const auto bits = numeric::bit_cast<std::uint32_t>(value);
     return bits ^ ((bits >> 31) != 0 ? 0xFFFFFFFFu : 0x80000000u);
@@ -4593,7 +4604,7 @@ constexpr std::uint64_t key_of(const keyed& item) {
 /// Sorts items by their key_of. The order of equal ones is kept.
 template <class Item>
 void radix_sort(dynamic_array<Item>& items) {
-    if (items.size() < 64) {  // shorter than the counts: insertion
+    if (items.size() < 64) {  // insertion sort: cheaper than clearing the counts
         for (std::size_t i = 1; i < items.size(); ++i) {
             const Item item = items[i];
             std::size_t to = i;
@@ -4733,7 +4744,8 @@ inline dynamic_array<float> values_at_ranks(const distribution& source, const di
     return result;
 }
 
-/// Replaces each value by the reference's value of the same rank; buckets find a value in one or two steps.
+/// Replaces each value by the reference's value of the same rank; equal buckets of the range of values shorten the
+/// search.
 class rank_pass {
   public:
     rank_pass(distribution source, const distribution& reference) {
@@ -4799,7 +4811,8 @@ class match_histogram {
     template <countable_pixel Pixel>
     INSONIFY_MEMBER explicit match_histogram(const image<Pixel>& reference) : match_histogram(reference.view()) {}
 
-    /// @throws invalid_input for an empty distribution, values and cumulative of different sizes, or either not rising
+    /// @throws invalid_input for an empty distribution, values and cumulative of different sizes, values that are
+    /// not finite, or either not strictly rising
     INSONIFY_TAGGED explicit match_histogram(distribution reference) {
         detail::require(reference.total() > 0, "number of finite pixels in the reference", reference.total(),
                         "1 or more");
@@ -5463,7 +5476,7 @@ auto operator|(F&& f, G&& g) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/filter/where.hpp -----------------------------------------------------------------
-// Masked filters: `image | where(labels.shadow, match)` measures and changes the pixels of the mask alone.
+// Masked filters: `image | where(shadow_mask(labels, 1), match)` measures and changes only the pixels of the mask.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -5472,7 +5485,8 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Applies a pass where the mask is not 0 and copies the other pixels.
+/// Applies a pass where the mask is not 0 and copies the other pixels. Whole rows go through the pass; its results
+/// outside the mask are discarded.
 template <class Pass>
 class masked_pass {
   public:
@@ -5506,16 +5520,17 @@ class masked_pass {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The pixels where the mask is not 0, as one row: a reference for `histogram_of`, `distribution_of` and the matching
-/// filters that counts part of an image only.
-/// @throws invalid_input for a mask of another size
+/// The pixels where the mask is not 0, as one row. Use it as a reference for `histogram_of`, `distribution_of` and the
+/// matching filters, to measure part of an image.
+/// @throws invalid_input for a mask of another size, or of more than 2^30 such pixels
 template <class Pixel>
 image<std::remove_const_t<Pixel>> pixels_where(image_view<const std::uint8_t> mask, image_view<Pixel> source) {
     detail::check_size("mask", mask.width(), mask.height(), {0, 0, source.width(), source.height()});
-    int count = 0;
+    std::size_t count = 0;
     for (int y = 0; y < mask.height(); ++y)
-        for (const std::uint8_t chosen : mask.row(y)) count += chosen != 0 ? 1 : 0;
-    image<std::remove_const_t<Pixel>> result(count, count > 0 ? 1 : 0);
+        for (const std::uint8_t chosen : mask.row(y)) count += chosen != 0 ? 1u : 0u;
+    detail::require(count <= std::size_t{1} << 30, "number of pixels where the mask is not 0", count, "at most 2^30");
+    image<std::remove_const_t<Pixel>> result(static_cast<int>(count), count > 0 ? 1 : 0);
     auto* next = result.pixels().data();
     for (int y = 0; y < mask.height(); ++y)
         for (int x = 0; x < mask.width(); ++x)
@@ -5537,13 +5552,12 @@ struct where_filter {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a mask of another size, and as the filter
-    template <class Pixel>
+    template <class Pixel, executor_argument E = serial_executor>
         requires((measured_filter<F, Pixel> ||
                   pixel_filter<F, Pixel>)&&std::same_as<typename detail::filter_result<F, Pixel>::type, Pixel>)
-    auto pass(image_view<const Pixel> source) const {
+    auto pass(image_view<const Pixel> source, E&& ex = {}) const {
         image<Pixel> chosen;
         if constexpr (measured_filter<F, Pixel>) chosen = pixels_where(mask, source);
-        const serial_executor ex;
         auto inner = detail::make_pass(filter, image_view<const Pixel>(chosen), ex);
         return detail::masked_pass<decltype(inner)>(std::move(inner), mask);
     }
@@ -5554,7 +5568,8 @@ struct where_filter {
 ///
 ///     image | where(is_seabed, match_histogram(pixels_where(reference_mask, reference)))
 ///
-/// @param mask  of the image's size; its pixels must exist until the filter has run
+/// @param mask    of the image's size; its pixels must exist until the filter has run
+/// @param filter  of pixels or measured, not of images, with results of the same pixel type
 template <class F>
     requires(!detail::is_chain<std::decay_t<F>>)
 where_filter<std::decay_t<F>> where(image_view<const std::uint8_t> mask, F&& filter) {
@@ -5881,7 +5896,8 @@ INSONIFY_ARITHMETIC_END
 // A camera for `draw`: position, target, and perspective projection.
 //
 // Its clip space is the library's: visible is -w <= x <= w, -w <= y <= w with y up, and 0 <= z <= w. Depth is reversed,
-// z / w = z_near / distance, so that precision does not fall off far away (draw with keep_depth::larger).
+// z / w = z_near / distance along the camera's axis, so that precision does not fall off far away (draw with
+// keep_depth::larger).
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
@@ -6110,8 +6126,7 @@ INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segme
     ring below{};
     for (std::size_t k = 0; k < outline.size(); ++k) {
         const outline_point& p = outline[k];
-        detail::require(numeric::is_finite(p.radius) && p.radius >= 0, "outline_point.radius", p.radius,
-                        "finite and at least 0");
+        detail::require_not_negative("outline_point.radius", p.radius);
         detail::require(numeric::is_finite(p.height), "outline_point.height", p.height, "finite");
         const bool on_axis = p.radius == 0;
         const ring here{static_cast<std::uint32_t>(out.positions.size()), on_axis && p.normal_radius == 0 ? 0u : 1u};
@@ -6168,8 +6183,7 @@ INSONIFY_FUNCTION mesh to_mesh(const cone& shape);
 INSONIFY_FUNCTION mesh to_mesh(const cone& shape) {
     detail::require_positive("cone.radius", shape.radius);
     detail::require_positive("cone.height", shape.height);
-    detail::require(numeric::is_finite(shape.top_radius) && shape.top_radius >= 0, "cone.top_radius", shape.top_radius,
-                    "finite and at least 0");
+    detail::require_not_negative("cone.top_radius", shape.top_radius);
     detail::require_revolved_segments("cone.segments", shape.segments);
     const auto radius = static_cast<double>(shape.radius);
     const auto height = static_cast<double>(shape.height);
@@ -6195,7 +6209,7 @@ INSONIFY_FUNCTION mesh to_mesh(const cone& shape) {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Fewest segments with which the wider rim, and with it the side, deviates from its circle by at most `deviation`.
+/// Fewest segments with which no point of the cone is farther than `deviation` from the mesh's surface.
 /// See `segments_for(radius, chord_error)`.
 /// @throws invalid_input as that does
 inline int segments_for(const cone& shape, float deviation) {
@@ -6279,7 +6293,7 @@ struct cylinder {
 struct capsule {
     float radius = 0.5f;  ///< metres
     float length = 2;     ///< metres from tip to tip, at least twice the radius
-    int segments = 64;    ///< around the axis, 3 to 8192; half as many rings over both ends
+    int segments = 64;    ///< around the axis, 3 to 8192; half as many rings over both ends, an even number
 };
 
 inline namespace INSONIFY_ONCE {
@@ -6393,7 +6407,7 @@ struct bounds_kernel {
 
     template <int N>
     INSONIFY_INLINE void run() const {
-        // N positions are three vectors, lanes of which always hold the same coordinate.
+        // N positions fill three vectors, each lane of which holds the same coordinate in every iteration.
         constexpr int together = is_packed<glm::vec3> ? N : 1;
         const std::size_t whole = count / together * together;
         is_finite = scan<together>(0, whole) && scan<1>(whole, count);
@@ -6445,7 +6459,7 @@ inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
     return numeric::is_finite(point) ? merge(box, {point, point}) : box;
 }
 
-/// The smallest box around a box that `map` transforms.
+/// The smallest box around the corners of a box after `map`.
 inline bounding_box transformed(const bounding_box& box, const affine& map) {
     bounding_box around;
     for (int i = 0; i < 8; ++i) around = include(around, transform_point(map, box.corner(i)));
@@ -10791,11 +10805,11 @@ inline void validate(const facet_backscatter& f) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/display.hpp ----------------------------------------------------------------
-// Filters from intensities to gray values: the last step, and the only non-linear one.
+// Filters from intensities to gray values, usually the last step.
 //
-// Real pictures differ more by their display than by their sonar: amplitude or power at a fixed white,
-// decibels over a range below a reference, or black and white wherever the picture's own extremes are (P. Blondel. The
-// Handbook of Sidescan Sonar, 2009, chapter 4: gain, contrast stretch and dynamic range of displays).
+// Real pictures differ more by their display than by their sonar: amplitude or power at a fixed white, decibels over a
+// range below a reference, or a stretch between the picture's own percentiles (P. Blondel. The Handbook of Sidescan
+// Sonar, 2009, chapter 4: gain, contrast stretch and dynamic range of displays).
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -10814,7 +10828,8 @@ struct display {
     INSONIFY_TAGGED auto pass() const {
         detail::require_positive("display.white", white);
         detail::require(exponent > 0 && exponent <= 4, "display.exponent", exponent, "above 0, at most 4");
-        detail::require(numeric::is_finite(1 / white), "display.white", white, "from 3e-39, whose inverse is finite");
+        detail::require(numeric::is_finite(1 / white), "display.white", white,
+                        "at least 3e-39, so that its inverse is finite");
         return [scale = 1 / white, to = exponent]<std::same_as<float> Pixel>(Pixel intensity, int, int) -> Pixel {
             const float share = intensity * scale;
             if (!(share > 0)) return 0;
@@ -10857,8 +10872,8 @@ enum class display_scale { power, amplitude, decibels };
 
 }  // namespace INSONIFY_FLAGS
 
-/// A contrast stretch by the picture's own percentiles, like "auto" in survey software: a fraction `black` of the
-/// pixels is black, a fraction `white` of them white.
+/// A contrast stretch by the picture's own percentiles, like "auto" in survey software: about a fraction `black` of the
+/// finite pixels is black, and about a fraction `white` of them white. NaN is black, infinity white.
 struct automatic_display {
     display_scale scale = display_scale::amplitude;
     float black = 0.01f;  ///< fraction of the pixels, 0 to 0.49
@@ -10890,7 +10905,7 @@ struct automatic_display {
         return [low, step = high > low ? 1 / (high - low) : 0.0, as = scale]<std::same_as<float> Pixel>(
                    Pixel intensity, int, int) -> Pixel {
             const double above = measure(static_cast<double>(intensity), as) - low;
-            // Where both percentiles are of the same ground, what stands out from it is white.
+            // If both percentiles are equal, brighter pixels are white and all others black.
             const double gray = step > 0 ? above * step : above > 0 ? 1.0 : 0.0;
             return gray > 0 ? (gray < 1 ? static_cast<float>(gray) : 1.0f) : 0.0f;
         };
@@ -12057,8 +12072,8 @@ class tile_bins {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/detail/int128.hpp -----------------------------------------------------------
-// 128-bit integers for exact geometry: products of two 64-bit numbers, sums, comparisons. Two's complement in two
-// halves, portable to every compiler.
+// 128-bit integers for exact geometry: products of two 64-bit numbers, sums, differences, signs. Two's complement
+// in two halves, portable to every compiler.
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
@@ -17203,7 +17218,7 @@ bottom_materials checked_materials(const scene& s, const Options& options) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/heightfield.hpp -----------------------------------------------------------
-// Heightfields: regular grids of sampled or measured heights, with labels, and placement of objects on them.
+// Heightfields: regular grids of sampled or measured heights, with labels.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -17275,7 +17290,8 @@ struct heightfield {
     /// Height of the drawn surface at a world position, metres. @pre the heightfield is valid, here and below
     INSONIFY_MEMBER float height_at(double x, double y) const { return static_cast<float>(facet_at(x, y).height); }
 
-    /// Unit normal of the triangle at a world position; outside, that of the nearest one. NaN where there is no data.
+    /// Unit normal of the triangle at a world position; outside, that of the nearest one. NaN where there is no data,
+    /// and on the border of a gap.
     INSONIFY_TAGGED glm::vec3 normal_at(double x, double y) const {
         const detail::facet f = facet_at(x, y);
         const glm::dvec3 normal(-f.rise_x, -f.rise_y, spacing);
@@ -17371,9 +17387,11 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input for a picture smaller than 2 x 2, a spacing out of its range or a scale that is not finite
 inline heightfield from_image(image_view<const float> picture, double spacing, float scale = 1,
                               float no_data = std::numeric_limits<float>::quiet_NaN()) {
+    detail::require(picture.width() >= 2, "picture.width()", picture.width(), "at least 2");
+    detail::require(picture.height() >= 2, "picture.height()", picture.height(), "at least 2");
+    detail::require_positive_metres("spacing", spacing);
     detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");
     heightfield result{.heights = image<float>(picture.width(), picture.height()), .spacing = spacing};
-    validate(result);
     for (int j = 0; j < picture.height(); ++j) {
         const auto from = picture.row(picture.height() - 1 - j);
         std::transform(from.begin(), from.end(), result.heights.row(j).begin(),
@@ -19078,6 +19096,15 @@ struct mask_difference {
 
     INSONIFY_MEMBER std::size_t wrong_pixels() const { return false_pixels + missed_pixels; }
 
+    /// Of several pictures together.
+    INSONIFY_MEMBER mask_difference& operator+=(const mask_difference& other) {
+        common += other.common;
+        false_pixels += other.false_pixels;
+        missed_pixels += other.missed_pixels;
+        boundary_pixels += other.boundary_pixels;
+        return *this;
+    }
+
     /// Intersection over union (Jaccard index), 1 when both masks are empty.
     INSONIFY_MEMBER double intersection_over_union() const {
         const std::size_t joined = common + wrong_pixels();
@@ -19200,7 +19227,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace accuracy {
 
-/// Errors of a picture, as defined in metrics.hpp; as a budget, tolerated errors.
+/// Errors of a picture; as a budget, tolerated errors.
 struct errors {
     double shadow_edge = 1;   ///< mean displacement of shadow edges, pixels
     double silhouette = 1;    ///< largest displacement of the targets' outlines, pixels
@@ -19224,11 +19251,6 @@ struct probe {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The most sub-pixel bits that pictures of a rig take, of which a side has at most 2^30 sub-pixels.
-inline int max_subpixel_bits(const overhead& rig) {
-    return (std::max)(rig.size.x, rig.size.y) > 16384 ? 15 : 16;
-}
-
 /// Small pictures of a seabed with their ground truth.
 class seabed_probe {
   public:
@@ -19240,7 +19262,7 @@ class seabed_probe {
         scene_.seabed = bottom;
         const overhead_geometry view(rig);
         pixels_ = (std::min)(how.pixels, (std::min)(rig.size.x, rig.size.y));
-        spacing_ = view.ground_sampling() / how.finest;
+        pixel_ = view.ground_sampling();
         // A low-discrepancy sequence in the unit square.
         // Martin Roberts. The Unreasonable Effectiveness of Quasirandom Sequences. 2018.
         for (int i = 0; i < how.chips; ++i) {
@@ -19270,10 +19292,7 @@ class seabed_probe {
         double squares = 0, pixels = 0, heights = 0;
         for (std::size_t i = 0; i < chips_.size(); ++i) {
             const auto result = draw(chips_[i], cells_per_pixel, shadow, ex);
-            const auto found = accuracy::compare_masks(result.dark, truths_[i].dark);
-            edges.false_pixels += found.false_pixels;
-            edges.missed_pixels += found.missed_pixels;
-            edges.boundary_pixels += found.boundary_pixels;
+            edges += accuracy::compare_masks(result.dark, truths_[i].dark);
             const auto off = accuracy::compare_images(result.values, truths_[i].values);
             squares += off.mean_square * static_cast<double>(off.pixels);
             pixels += static_cast<double>(off.pixels);
@@ -19285,7 +19304,7 @@ class seabed_probe {
         const auto few = static_cast<double>(pixels_) / 16;
         all.shadow_edge = wrong / (std::max)(static_cast<double>(edges.boundary_pixels), few);
         all.intensity = numeric::square_root(squares / pixels);
-        all.height = numeric::square_root(heights);
+        all.height = numeric::square_root(heights) / pixel_;
         return all;
     }
 
@@ -19305,12 +19324,13 @@ class seabed_probe {
                 })};
     }
 
-    /// Of a grid against the finest one, over a lattice of points; in square metres.
+    /// Mean square difference of height, square metres, between a grid and the seabed band-limited as on the finest
+    /// grid, over a lattice of points.
     double mean_square_height_error(const overhead& chip, double cells_per_pixel) const {
         constexpr int net = 24;
         const double side = 2 * overhead_geometry(chip).half_extent(0).x;
         const glm::dvec2 low = chip.position - 0.5 * side;
-        const double spacing = spacing_ * how_.finest / cells_per_pixel;
+        const double spacing = pixel_ / cells_per_pixel;
         seabed::grid coarse = seabed::grid_over(low, low + side, spacing);
         coarse.band_limited = true;
         const seabed::heightfield field = seabed::sample(scene_.seabed, coarse);
@@ -19322,7 +19342,7 @@ class seabed_probe {
             const seabed::scanline line{.y = low.y + side * (j + 0.5) / net,
                                         .origin = low.x + side * 0.5 / net,
                                         .spacing = side / net,
-                                        .grid_spacing = spacing_};
+                                        .grid_spacing = pixel_ / how_.finest};
             prepared.row(line, heights, {});
             for (std::size_t i = 0; i < heights.size(); ++i) {
                 const double off =
@@ -19338,7 +19358,7 @@ class seabed_probe {
     accuracy::probe how_;
     scene scene_;
     int pixels_ = 0;
-    double spacing_ = 1;  ///< of the finest grid, metres
+    double pixel_ = 1;  ///< of the picture on the ground, metres
     std::vector<overhead> chips_;
     std::vector<picture> truths_;
 };
@@ -19361,6 +19381,16 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
+
+namespace detail::inline INSONIFY_FLAGS {
+
+/// Largest `subpixel_bits` for pictures of a rig: a side has at most 2^30 sub-pixels.
+inline int max_subpixel_bits(const overhead& rig) {
+    return (std::max)(rig.size.x, rig.size.y) > 16384 ? 15 : 16;
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
 namespace accuracy {
 
 /// Tolerated errors, each above 0.
@@ -19509,7 +19539,6 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         Shadow policy{};
         if constexpr (has_map) policy.texels_per_pixel = static_cast<float>(texels);
         errors all = probed.errors_of(cells_per_pixel, policy, ex);
-        all.height /= pixel;
         // An error of height h displaces the shadow of a target by h cot(elevation).
         const double cot = std::same_as<Shadow, insonify::shadow::none> ? 0 : view.light().cot_elevation();
         all.shadow_edge = (std::max)(all.shadow_edge, all.height * cot);
@@ -20443,8 +20472,7 @@ inline void validate(const compound& c) {
     detail::require(c.parts.size() <= 65535, "compound.parts.size()", c.parts.size(), "at most 65535");
     for (const compound_part& p : c.parts) {
         validate(p.shape);
-        detail::require(numeric::is_finite(p.reflectivity) && p.reflectivity >= 0, "compound_part.reflectivity",
-                        p.reflectivity, "finite and at least 0");
+        detail::require_not_negative("compound_part.reflectivity", p.reflectivity);
     }
 }
 
@@ -27672,8 +27700,7 @@ class scene_occlusion {
         const glm::dvec3 size = within.box.size();
         detail::require(!within.box.empty() && numeric::is_finite(size.x + size.y + size.z),
                         "occlusion_bounds.box.size()", size.x + size.y + size.z, "that of a box around the points");
-        detail::require(within.cell >= 0 && numeric::is_finite(within.cell), "occlusion_bounds.cell", within.cell,
-                        "0 metres or more");
+        detail::require_not_negative("occlusion_bounds.cell", within.cell);
         detail::require_not_negative("occlusion_bounds.reach", within.reach);
         seabed::detail::require_position("occlusion_bounds.box.lower", glm::dvec2(within.box.lower));
         seabed::detail::require_position("occlusion_bounds.box.upper", glm::dvec2(within.box.upper));

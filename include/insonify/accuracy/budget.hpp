@@ -19,6 +19,16 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
+
+namespace detail::inline INSONIFY_FLAGS {
+
+/// Largest `subpixel_bits` for pictures of a rig: a side has at most 2^30 sub-pixels.
+inline int max_subpixel_bits(const overhead& rig) {
+    return (std::max)(rig.size.x, rig.size.y) > 16384 ? 15 : 16;
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
 namespace accuracy {
 
 /// Tolerated errors, each above 0.
@@ -167,7 +177,6 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         Shadow policy{};
         if constexpr (has_map) policy.texels_per_pixel = static_cast<float>(texels);
         errors all = probed.errors_of(cells_per_pixel, policy, ex);
-        all.height /= pixel;
         // An error of height h displaces the shadow of a target by h cot(elevation).
         const double cot = std::same_as<Shadow, insonify::shadow::none> ? 0 : view.light().cot_elevation();
         all.shadow_edge = (std::max)(all.shadow_edge, all.height * cot);

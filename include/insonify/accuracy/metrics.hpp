@@ -26,6 +26,15 @@ struct mask_difference {
 
     INSONIFY_MEMBER std::size_t wrong_pixels() const { return false_pixels + missed_pixels; }
 
+    /// Of several pictures together.
+    INSONIFY_MEMBER mask_difference& operator+=(const mask_difference& other) {
+        common += other.common;
+        false_pixels += other.false_pixels;
+        missed_pixels += other.missed_pixels;
+        boundary_pixels += other.boundary_pixels;
+        return *this;
+    }
+
     /// Intersection over union (Jaccard index), 1 when both masks are empty.
     INSONIFY_MEMBER double intersection_over_union() const {
         const std::size_t joined = common + wrong_pixels();

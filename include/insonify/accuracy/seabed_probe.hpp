@@ -14,7 +14,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace accuracy {
 
-/// Errors of a picture, as defined in metrics.hpp; as a budget, tolerated errors.
+/// Errors of a picture; as a budget, tolerated errors.
 struct errors {
     double shadow_edge = 1;   ///< mean displacement of shadow edges, pixels
     double silhouette = 1;    ///< largest displacement of the targets' outlines, pixels
@@ -38,11 +38,6 @@ struct probe {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The most sub-pixel bits that pictures of a rig take, of which a side has at most 2^30 sub-pixels.
-inline int max_subpixel_bits(const overhead& rig) {
-    return (std::max)(rig.size.x, rig.size.y) > 16384 ? 15 : 16;
-}
-
 /// Small pictures of a seabed with their ground truth.
 class seabed_probe {
   public:
@@ -54,7 +49,7 @@ class seabed_probe {
         scene_.seabed = bottom;
         const overhead_geometry view(rig);
         pixels_ = (std::min)(how.pixels, (std::min)(rig.size.x, rig.size.y));
-        spacing_ = view.ground_sampling() / how.finest;
+        pixel_ = view.ground_sampling();
         // A low-discrepancy sequence in the unit square.
         // Martin Roberts. The Unreasonable Effectiveness of Quasirandom Sequences. 2018.
         for (int i = 0; i < how.chips; ++i) {
@@ -84,10 +79,7 @@ class seabed_probe {
         double squares = 0, pixels = 0, heights = 0;
         for (std::size_t i = 0; i < chips_.size(); ++i) {
             const auto result = draw(chips_[i], cells_per_pixel, shadow, ex);
-            const auto found = accuracy::compare_masks(result.dark, truths_[i].dark);
-            edges.false_pixels += found.false_pixels;
-            edges.missed_pixels += found.missed_pixels;
-            edges.boundary_pixels += found.boundary_pixels;
+            edges += accuracy::compare_masks(result.dark, truths_[i].dark);
             const auto off = accuracy::compare_images(result.values, truths_[i].values);
             squares += off.mean_square * static_cast<double>(off.pixels);
             pixels += static_cast<double>(off.pixels);
@@ -99,7 +91,7 @@ class seabed_probe {
         const auto few = static_cast<double>(pixels_) / 16;
         all.shadow_edge = wrong / (std::max)(static_cast<double>(edges.boundary_pixels), few);
         all.intensity = numeric::square_root(squares / pixels);
-        all.height = numeric::square_root(heights);
+        all.height = numeric::square_root(heights) / pixel_;
         return all;
     }
 
@@ -119,12 +111,13 @@ class seabed_probe {
                 })};
     }
 
-    /// Of a grid against the finest one, over a lattice of points; in square metres.
+    /// Mean square difference of height, square metres, between a grid and the seabed band-limited as on the finest
+    /// grid, over a lattice of points.
     double mean_square_height_error(const overhead& chip, double cells_per_pixel) const {
         constexpr int net = 24;
         const double side = 2 * overhead_geometry(chip).half_extent(0).x;
         const glm::dvec2 low = chip.position - 0.5 * side;
-        const double spacing = spacing_ * how_.finest / cells_per_pixel;
+        const double spacing = pixel_ / cells_per_pixel;
         seabed::grid coarse = seabed::grid_over(low, low + side, spacing);
         coarse.band_limited = true;
         const seabed::heightfield field = seabed::sample(scene_.seabed, coarse);
@@ -136,7 +129,7 @@ class seabed_probe {
             const seabed::scanline line{.y = low.y + side * (j + 0.5) / net,
                                         .origin = low.x + side * 0.5 / net,
                                         .spacing = side / net,
-                                        .grid_spacing = spacing_};
+                                        .grid_spacing = pixel_ / how_.finest};
             prepared.row(line, heights, {});
             for (std::size_t i = 0; i < heights.size(); ++i) {
                 const double off =
@@ -152,7 +145,7 @@ class seabed_probe {
     accuracy::probe how_;
     scene scene_;
     int pixels_ = 0;
-    double spacing_ = 1;  ///< of the finest grid, metres
+    double pixel_ = 1;  ///< of the picture on the ground, metres
     std::vector<overhead> chips_;
     std::vector<picture> truths_;
 };

@@ -9,8 +9,9 @@
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Pass one in place of the executor: large temporaries and the images of results take their memory from it and return
-/// it when they are destroyed, so that the next frame finds it mapped. Without one, every frame allocates afresh.
+/// Pass one in place of the executor: the renderers' large temporaries, and the images of pictures and pixel filters,
+/// take their memory from it and return it when they are destroyed, so that the next frame finds it mapped. Without
+/// one, every frame allocates afresh.
 ///
 ///     in::thread_pool pool;
 ///     in::context context(pool);

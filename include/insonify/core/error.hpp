@@ -30,6 +30,7 @@ struct io_error : std::runtime_error {
 
 namespace detail::inline INSONIFY_FLAGS {
 
+/// Throws the error. Without exceptions it calls INSONIFY_THROW, or else writes the message to stderr and terminates.
 template <class Error>
 [[noreturn]] void raise(Error error) {
 #if defined(__cpp_exceptions)

@@ -66,11 +66,11 @@ inline double widened(float value) {
     return static_cast<double>(value);
 }
 
-/// Tests the exponent bits, so that no compiler flag can optimize the test away.
+/// Whether a value is neither infinite nor NaN. Tests the exponent bits, so that no compiler flag can remove the test.
 constexpr bool is_finite(float value) {
     return (numeric::bit_cast<std::uint32_t>(value) & 0x7F800000u) != 0x7F800000u;
 }
-/// Whether a value is neither infinite nor NaN.
+/// The same for a double.
 constexpr bool is_finite(double value) {
     return (numeric::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
 }
@@ -96,8 +96,8 @@ constexpr std::int64_t floor_to_int(double value) {
     return truncated - (static_cast<double>(truncated) > value ? 1 : 0);
 }
 
-/// Rounds a length, above 0 and finite, to eight significant bits: its multiples are exact in double, so that nodes at
-/// multiples of it are the same in every row.
+/// Rounds a length, a positive normal number, to eight significant bits: its multiples are exact in double, so that
+/// nodes at multiples of it are the same in every row.
 inline double rounded_to_eight_bits(double length) {
     double unit = 1;
     while (unit * 256 <= length) unit *= 2;
@@ -188,7 +188,7 @@ constexpr double pow(double x, double y) {
     return y == 0 ? 1.0 : x == 0 ? (y > 0 ? 0.0 : std::numeric_limits<double>::infinity()) : exp(y * log(x));
 }
 
-/// Arc tangent of y / x in (-pi, pi], absolute error < 1e-15; (0, 0) gives 0.
+/// Arc tangent of y / x in [-pi, pi], absolute error < 1e-15; (0, 0) gives 0, two infinities NaN.
 inline double atan2(double y, double x) {
     const double ax = x < 0 ? -x : x, ay = y < 0 ? -y : y;
     const double larger = ax > ay ? ax : ay, smaller = ax > ay ? ay : ax;

@@ -6,8 +6,9 @@
 //     measured  f.pass(view) reads the whole image and returns a function as below
 //     pixel     f(pixel), f(pixel, x, y), or f.pass() that returns such a function   -> pixel
 //
-// The function of a measured filter must not refer to the view: pixels may be replaced while it runs, and the image may
-// no longer exist. A filter that reads other pixels is an image filter.
+// A measured filter may also have `f.pass(view, executor)`, which is called instead, to measure on the threads of the
+// chain. The function of a measured filter must not refer to the view: pixels may be replaced while it runs, and the
+// image may no longer exist. A filter that reads other pixels is an image filter.
 //
 // `pass` returns a value, which is copied for each band of rows: it may keep state between pixels. It may process up to
 // run_length adjacent pixels at once by `row(from, to, count, x, y)`, to[i] = fn(from[i], x + i, y), where `to` may be

@@ -119,7 +119,8 @@ inline dynamic_array<float> values_at_ranks(const distribution& source, const di
     return result;
 }
 
-/// Replaces each value by the reference's value of the same rank; buckets find a value in one or two steps.
+/// Replaces each value by the reference's value of the same rank; equal buckets of the range of values shorten the
+/// search.
 class rank_pass {
   public:
     rank_pass(distribution source, const distribution& reference) {
@@ -185,7 +186,8 @@ class match_histogram {
     template <countable_pixel Pixel>
     INSONIFY_MEMBER explicit match_histogram(const image<Pixel>& reference) : match_histogram(reference.view()) {}
 
-    /// @throws invalid_input for an empty distribution, values and cumulative of different sizes, or either not rising
+    /// @throws invalid_input for an empty distribution, values and cumulative of different sizes, values that are
+    /// not finite, or either not strictly rising
     INSONIFY_TAGGED explicit match_histogram(distribution reference) {
         detail::require(reference.total() > 0, "number of finite pixels in the reference", reference.total(),
                         "1 or more");

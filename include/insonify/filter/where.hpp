@@ -1,4 +1,4 @@
-// Masked filters: `image | where(labels.shadow, match)` measures and changes the pixels of the mask alone.
+// Masked filters: `image | where(shadow_mask(labels, 1), match)` measures and changes only the pixels of the mask.
 #pragma once
 
 #include <insonify/filter/parameter.hpp>
@@ -11,7 +11,8 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Applies a pass where the mask is not 0 and copies the other pixels.
+/// Applies a pass where the mask is not 0 and copies the other pixels. Whole rows go through the pass; its results
+/// outside the mask are discarded.
 template <class Pass>
 class masked_pass {
   public:
@@ -45,16 +46,17 @@ class masked_pass {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The pixels where the mask is not 0, as one row: a reference for `histogram_of`, `distribution_of` and the matching
-/// filters that counts part of an image only.
-/// @throws invalid_input for a mask of another size
+/// The pixels where the mask is not 0, as one row. Use it as a reference for `histogram_of`, `distribution_of` and the
+/// matching filters, to measure part of an image.
+/// @throws invalid_input for a mask of another size, or of more than 2^30 such pixels
 template <class Pixel>
 image<std::remove_const_t<Pixel>> pixels_where(image_view<const std::uint8_t> mask, image_view<Pixel> source) {
     detail::check_size("mask", mask.width(), mask.height(), {0, 0, source.width(), source.height()});
-    int count = 0;
+    std::size_t count = 0;
     for (int y = 0; y < mask.height(); ++y)
-        for (const std::uint8_t chosen : mask.row(y)) count += chosen != 0 ? 1 : 0;
-    image<std::remove_const_t<Pixel>> result(count, count > 0 ? 1 : 0);
+        for (const std::uint8_t chosen : mask.row(y)) count += chosen != 0 ? 1u : 0u;
+    detail::require(count <= std::size_t{1} << 30, "number of pixels where the mask is not 0", count, "at most 2^30");
+    image<std::remove_const_t<Pixel>> result(static_cast<int>(count), count > 0 ? 1 : 0);
     auto* next = result.pixels().data();
     for (int y = 0; y < mask.height(); ++y)
         for (int x = 0; x < mask.width(); ++x)
@@ -76,13 +78,12 @@ struct where_filter {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a mask of another size, and as the filter
-    template <class Pixel>
+    template <class Pixel, executor_argument E = serial_executor>
         requires((measured_filter<F, Pixel> ||
                   pixel_filter<F, Pixel>)&&std::same_as<typename detail::filter_result<F, Pixel>::type, Pixel>)
-    auto pass(image_view<const Pixel> source) const {
+    auto pass(image_view<const Pixel> source, E&& ex = {}) const {
         image<Pixel> chosen;
         if constexpr (measured_filter<F, Pixel>) chosen = pixels_where(mask, source);
-        const serial_executor ex;
         auto inner = detail::make_pass(filter, image_view<const Pixel>(chosen), ex);
         return detail::masked_pass<decltype(inner)>(std::move(inner), mask);
     }
@@ -93,7 +94,8 @@ struct where_filter {
 ///
 ///     image | where(is_seabed, match_histogram(pixels_where(reference_mask, reference)))
 ///
-/// @param mask  of the image's size; its pixels must exist until the filter has run
+/// @param mask    of the image's size; its pixels must exist until the filter has run
+/// @param filter  of pixels or measured, not of images, with results of the same pixel type
 template <class F>
     requires(!detail::is_chain<std::decay_t<F>>)
 where_filter<std::decay_t<F>> where(image_view<const std::uint8_t> mask, F&& filter) {

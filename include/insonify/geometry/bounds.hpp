@@ -59,7 +59,7 @@ struct bounds_kernel {
 
     template <int N>
     INSONIFY_INLINE void run() const {
-        // N positions are three vectors, lanes of which always hold the same coordinate.
+        // N positions fill three vectors, each lane of which holds the same coordinate in every iteration.
         constexpr int together = is_packed<glm::vec3> ? N : 1;
         const std::size_t whole = count / together * together;
         is_finite = scan<together>(0, whole) && scan<1>(whole, count);
@@ -111,7 +111,7 @@ inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
     return numeric::is_finite(point) ? merge(box, {point, point}) : box;
 }
 
-/// The smallest box around a box that `map` transforms.
+/// The smallest box around the corners of a box after `map`.
 inline bounding_box transformed(const bounding_box& box, const affine& map) {
     bounding_box around;
     for (int i = 0; i < 8; ++i) around = include(around, transform_point(map, box.corner(i)));

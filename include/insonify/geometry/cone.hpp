@@ -30,8 +30,7 @@ INSONIFY_FUNCTION mesh to_mesh(const cone& shape);
 INSONIFY_FUNCTION mesh to_mesh(const cone& shape) {
     detail::require_positive("cone.radius", shape.radius);
     detail::require_positive("cone.height", shape.height);
-    detail::require(numeric::is_finite(shape.top_radius) && shape.top_radius >= 0, "cone.top_radius", shape.top_radius,
-                    "finite and at least 0");
+    detail::require_not_negative("cone.top_radius", shape.top_radius);
     detail::require_revolved_segments("cone.segments", shape.segments);
     const auto radius = static_cast<double>(shape.radius);
     const auto height = static_cast<double>(shape.height);
@@ -57,7 +56,7 @@ INSONIFY_FUNCTION mesh to_mesh(const cone& shape) {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Fewest segments with which the wider rim, and with it the side, deviates from its circle by at most `deviation`.
+/// Fewest segments with which no point of the cone is farther than `deviation` from the mesh's surface.
 /// See `segments_for(radius, chord_error)`.
 /// @throws invalid_input as that does
 inline int segments_for(const cone& shape, float deviation) {

@@ -22,7 +22,7 @@ struct cylinder {
 struct capsule {
     float radius = 0.5f;  ///< metres
     float length = 2;     ///< metres from tip to tip, at least twice the radius
-    int segments = 64;    ///< around the axis, 3 to 8192; half as many rings over both ends
+    int segments = 64;    ///< around the axis, 3 to 8192; half as many rings over both ends, an even number
 };
 
 inline namespace INSONIFY_ONCE {

@@ -153,8 +153,7 @@ INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segme
     ring below{};
     for (std::size_t k = 0; k < outline.size(); ++k) {
         const outline_point& p = outline[k];
-        detail::require(numeric::is_finite(p.radius) && p.radius >= 0, "outline_point.radius", p.radius,
-                        "finite and at least 0");
+        detail::require_not_negative("outline_point.radius", p.radius);
         detail::require(numeric::is_finite(p.height), "outline_point.height", p.height, "finite");
         const bool on_axis = p.radius == 0;
         const ring here{static_cast<std::uint32_t>(out.positions.size()), on_axis && p.normal_radius == 0 ? 0u : 1u};

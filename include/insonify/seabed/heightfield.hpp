@@ -1,4 +1,4 @@
-// Heightfields: regular grids of sampled or measured heights, with labels, and placement of objects on them.
+// Heightfields: regular grids of sampled or measured heights, with labels.
 #pragma once
 
 #include <insonify/core/image.hpp>
@@ -81,7 +81,8 @@ struct heightfield {
     /// Height of the drawn surface at a world position, metres. @pre the heightfield is valid, here and below
     INSONIFY_MEMBER float height_at(double x, double y) const { return static_cast<float>(facet_at(x, y).height); }
 
-    /// Unit normal of the triangle at a world position; outside, that of the nearest one. NaN where there is no data.
+    /// Unit normal of the triangle at a world position; outside, that of the nearest one. NaN where there is no data,
+    /// and on the border of a gap.
     INSONIFY_TAGGED glm::vec3 normal_at(double x, double y) const {
         const detail::facet f = facet_at(x, y);
         const glm::dvec3 normal(-f.rise_x, -f.rise_y, spacing);
@@ -177,9 +178,11 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input for a picture smaller than 2 x 2, a spacing out of its range or a scale that is not finite
 inline heightfield from_image(image_view<const float> picture, double spacing, float scale = 1,
                               float no_data = std::numeric_limits<float>::quiet_NaN()) {
+    detail::require(picture.width() >= 2, "picture.width()", picture.width(), "at least 2");
+    detail::require(picture.height() >= 2, "picture.height()", picture.height(), "at least 2");
+    detail::require_positive_metres("spacing", spacing);
     detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");
     heightfield result{.heights = image<float>(picture.width(), picture.height()), .spacing = spacing};
-    validate(result);
     for (int j = 0; j < picture.height(); ++j) {
         const auto from = picture.row(picture.height() - 1 - j);
         std::transform(from.begin(), from.end(), result.heights.row(j).begin(),

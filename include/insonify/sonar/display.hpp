@@ -1,8 +1,8 @@
-// Filters from intensities to gray values: the last step, and the only non-linear one.
+// Filters from intensities to gray values, usually the last step.
 //
-// Real pictures differ more by their display than by their sonar: amplitude or power at a fixed white,
-// decibels over a range below a reference, or black and white wherever the picture's own extremes are (P. Blondel. The
-// Handbook of Sidescan Sonar, 2009, chapter 4: gain, contrast stretch and dynamic range of displays).
+// Real pictures differ more by their display than by their sonar: amplitude or power at a fixed white, decibels over a
+// range below a reference, or a stretch between the picture's own percentiles (P. Blondel. The Handbook of Sidescan
+// Sonar, 2009, chapter 4: gain, contrast stretch and dynamic range of displays).
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
@@ -30,7 +30,8 @@ struct display {
     INSONIFY_TAGGED auto pass() const {
         detail::require_positive("display.white", white);
         detail::require(exponent > 0 && exponent <= 4, "display.exponent", exponent, "above 0, at most 4");
-        detail::require(numeric::is_finite(1 / white), "display.white", white, "from 3e-39, whose inverse is finite");
+        detail::require(numeric::is_finite(1 / white), "display.white", white,
+                        "at least 3e-39, so that its inverse is finite");
         return [scale = 1 / white, to = exponent]<std::same_as<float> Pixel>(Pixel intensity, int, int) -> Pixel {
             const float share = intensity * scale;
             if (!(share > 0)) return 0;
@@ -73,8 +74,8 @@ enum class display_scale { power, amplitude, decibels };
 
 }  // namespace INSONIFY_FLAGS
 
-/// A contrast stretch by the picture's own percentiles, like "auto" in survey software: a fraction `black` of the
-/// pixels is black, a fraction `white` of them white.
+/// A contrast stretch by the picture's own percentiles, like "auto" in survey software: about a fraction `black` of the
+/// finite pixels is black, and about a fraction `white` of them white. NaN is black, infinity white.
 struct automatic_display {
     display_scale scale = display_scale::amplitude;
     float black = 0.01f;  ///< fraction of the pixels, 0 to 0.49
@@ -106,7 +107,7 @@ struct automatic_display {
         return [low, step = high > low ? 1 / (high - low) : 0.0, as = scale]<std::same_as<float> Pixel>(
                    Pixel intensity, int, int) -> Pixel {
             const double above = measure(static_cast<double>(intensity), as) - low;
-            // Where both percentiles are of the same ground, what stands out from it is white.
+            // If both percentiles are equal, brighter pixels are white and all others black.
             const double gray = step > 0 ? above * step : above > 0 ? 1.0 : 0.0;
             return gray > 0 ? (gray < 1 ? static_cast<float>(gray) : 1.0f) : 0.0f;
         };

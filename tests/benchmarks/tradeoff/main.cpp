@@ -341,7 +341,7 @@ void measure_depth(const options& o, report::contents& into) {
         o.runs, into, {.name = "interpolation of depth", .oracle = "`depth_precision::exact`"},
         {"float", "correctly rounded"}, [&](std::size_t i) { return draw(i == 0); },
         [&](std::size_t, const in::image<float>& depth) {
-            return svg::number(in::accuracy::compare_images(depth, exact).largest / 0x1p-24, 1) + " ulp at most";
+            return svg::number(in::accuracy::compare_images(depth, exact).largest / 0x1p-24, 1) + " x 2^-24 at most";
         });
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "../../catch.hpp"
 
@@ -25,6 +26,30 @@ TEST_CASE("An error names the argument, its value in the fewest digits, and what
     CHECK_NOTHROW(in::detail::require_equal("right.height()", 3, 3, "that of the left"));
     CHECK_THROWS_WITH(in::detail::require_equal("right.height()", 2, 3, "that of the left"),
                       "right.height() is 2, expected 3, that of the left");
+}
+
+TEST_CASE("Numbers beyond those of a double are read as 0 or infinite, however they are written") {
+    const auto read = [](const std::string& text) {
+        double value = -1;
+        REQUIRE(in::detail::parse_number(text, value));
+        return value;
+    };
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const std::string zeros(400, '0');
+    CHECK(read("1e-400") == 0);
+    CHECK(read("-1E+400") == -infinity);
+    CHECK(read("1" + zeros) == infinity);
+    CHECK(read("-1" + zeros + ".5e-5") == -infinity);
+    CHECK(read("0." + zeros + "1") == 0);
+    CHECK(read("0." + zeros + "1e5") == 0);
+    CHECK(read("3e999999999999999999999") == infinity);
+    CHECK(read("3e-999999999999999999999") == 0);
+    CHECK(read("+0.5") == 0.5);
+    for (const char* const wrong : {"", "+", "1x", "+-1", " 1", "0x1", "1e"}) {
+        double value = 0;
+        CAPTURE(wrong);
+        CHECK_FALSE(in::detail::parse_number(wrong, value));
+    }
 }
 
 TEST_CASE("Both errors derive from exceptions of the standard library") {

@@ -87,7 +87,7 @@ TEST_CASE("A chain gives the result of its stages applied one by one") {
     }
 }
 
-TEST_CASE("An image may be filtered by a function of a pixel, of a pixel and its place, or of the image") {
+TEST_CASE("An image may be filtered by a function of a pixel, of a pixel and its coordinates, or of the image") {
     const in::image<float> source{{0, 0.25f}, {0.5f, 1}};
     CHECK((source | [](float v) { return v * 0.5f; }) == in::image<float>{{0, 0.125f}, {0.25f, 0.5f}});
     CHECK((source | [](float v, int x, int y) { return v + static_cast<float>(10 * x + 100 * y); }) ==
@@ -164,7 +164,7 @@ struct sum_downwards {
     auto pass() const { return pass_of_sums{*this}; }
 };
 
-TEST_CASE("A pass that computes rows above its band gets high bands, walked downwards run by run") {
+TEST_CASE("A pass that computes rows above its band gets tall bands, walked downwards run by run") {
     in::image<float> picture(2000, 240);
     for (int y = 0; y < 240; ++y)
         for (int x = 0; x < 2000; ++x) picture(x, y) = static_cast<float>((x + y) % 7);
@@ -185,13 +185,13 @@ TEST_CASE("A pass that computes rows above its band gets high bands, walked down
 }
 
 TEST_CASE("An origin whose columns and rows an int cannot number is refused") {
-    const in::image<float> grey(600, 4, 0.5f);
+    const in::image<float> gray(600, 4, 0.5f);
     for (const in::pixel_origin& origin : {in::pixel_origin{INT_MAX - 10, 0}, in::pixel_origin{0, INT_MIN}})
-        CHECK_THROWS_WITH(in::apply(grey, in::gaussian{.correlation = {3, 3}}, in::serial_executor{}, origin),
+        CHECK_THROWS_WITH(in::apply(gray, in::gaussian{.correlation = {3, 3}}, in::serial_executor{}, origin),
                           ContainsSubstring(origin.x != 0 ? "origin.x is 2147483637" : "origin.y is -2147483648"));
 }
 
-TEST_CASE("Empty and thin images pass through every filter") {
+TEST_CASE("Empty and thin images pass through a chain of measured, noise and color filters") {
     const auto look = in::match_histogram(ramp(5, 5)) | in::speckle{} | in::colormap::copper | in::to_gray{};
     CHECK((in::image<float>() | look).empty());
     CHECK((in::image<float>(0, 7) | look).height() == 7);
@@ -200,7 +200,7 @@ TEST_CASE("Empty and thin images pass through every filter") {
     CHECK((in::image<float>(1, 70000, 0.5f) | look).height() == 70000);
 }
 
-TEST_CASE("Library filters compose with any callable, and reject pixel types they do not accept") {
+TEST_CASE("Concepts tell library filters from other callables, and reject pixel types that a filter does not take") {
     const auto lambda = [](float v) { return v; };
     STATIC_REQUIRE(in::detail::library_filter<in::speckle>);
     STATIC_REQUIRE_FALSE(in::detail::library_filter<decltype(lambda)>);
@@ -224,7 +224,7 @@ TEST_CASE("A callable that takes any picture gets a copy, never the pixels of a 
     CHECK(source == in::image<float>(3, 2, 0.5f));
 }
 
-TEST_CASE("A callable may return truth values") {
+TEST_CASE("A callable may return booleans") {
     const in::image<bool> bright = in::image<float>{{0.2f, 0.7f}} | [](float v) { return v > 0.5f; };
     CHECK_FALSE(bright(0, 0));
     CHECK(bright(1, 0));

@@ -162,6 +162,8 @@ TEST_CASE("Under a mask, a filter changes and measures the chosen pixels alone")
     const auto out = source | in::where(mask, match);
     const auto chosen = in::pixels_where(mask, source);
     CHECK(in::pixels_where(mask, out) == (chosen | match));
+    in::thread_pool pool(3);
+    CHECK(in::apply(source, in::where(mask, in::equalize{}), pool) == (source | in::where(mask, in::equalize{})));
     const auto others = mask | [](std::uint8_t m) -> std::uint8_t { return m == 0; };
     CHECK(in::pixels_where(others, out) == in::pixels_where(others, source));
 

@@ -97,7 +97,7 @@ TEST_CASE("Depths of exactly 0 and 1 are visible, with near corners and with far
 
 namespace {
 
-/// The pixels of a triangle of which each corner's depth is a multiple of w.
+/// Pixels that a triangle covers whose corners have z = depth * w in clip space.
 in::image<int> covered(const glm::vec3 (&corners)[3], float depth) {
     const in::mesh m{{corners[0], corners[1], corners[2]}, {}, {{0, 1, 2}}};
     return hits(m, 24, 20, [=](const in::vertex& v) {

@@ -134,7 +134,7 @@ TEST_CASE("Lines of dashes or dots are no soundings, and the largest double in 1
     CHECK(field.heights(0, 0) == 0);
 }
 
-TEST_CASE("Soundings or grids so far away that their vertices have no number are refused") {
+TEST_CASE("Soundings or grids whose vertex indices exceed 2^53 are refused") {
     CHECK_THROWS_WITH(sb::parse_xyz("500000 500000 -5\n500001 500000 -7\n", 5e-14), ContainsSubstring("2^53"));
     CHECK_THROWS_WITH(sb::grid_over({5e5, 5e5}, {5e5 + 1, 5e5 + 1}, 5e-14), ContainsSubstring("spacing is 5e-14"));
 }

@@ -1,7 +1,7 @@
 // Tessellation: vertex positions, normals, and holes where data is missing.
-#include <insonify/geometry/topology.hpp>
 #include <insonify/seabed/tessellate.hpp>
 
+#include <cmath>
 #include <limits>
 
 #include "../../catch.hpp"

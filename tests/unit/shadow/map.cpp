@@ -159,14 +159,24 @@ TEST_CASE("PCF takes points beyond the map's border as lit") {
     shadow::map_extent extent;
     extent.include({0, 0, 0});
     extent.include({1, 1, 0.5});
-    const shadow::height_map map(light, extent, 0.05);  // no casters
+    constexpr double texel = 0.05;
     constexpr int soft = 3;
-    for (const double u : {-0.5, -0.1, -0.01, 0.01, 0.1, 0.5, 0.9, 0.99, 1.01, 1.1, 1.5})
-        for (const double v : {-0.5, -0.1, -0.01, 0.01, 0.1, 0.5, 0.9, 0.99, 1.01, 1.1, 1.5}) {
+    shadow::height_map map(light, extent, texel);
+    map.cast(in::mesh{{{-9, -9, 0.5f}, {9, -9, 0.5f}, {9, 9, 0.5f}, {-9, 9, 0.5f}}, {}, {{0, 1, 2}, {0, 2, 3}}}, {});
+    const auto border = [](double a) { return (std::max)(-a, a - 1); };  // metres beyond it
+    for (const double u : {-0.5, -0.2, -0.01, 0.01, 0.2, 0.5, 0.8, 0.99, 1.01, 1.25, 1.5})
+        for (const double v : {-0.5, -0.2, -0.01, 0.01, 0.2, 0.5, 0.8, 0.99, 1.01, 1.25, 1.5}) {
             shadow::receiver_plane at;
             at.uvz = {u, v, 0};
-            CAPTURE(u, v);
-            CHECK(shadow::lit(map, at, soft) == 1);
+            const double beyond = (std::max)(border(u), border(v));
+            const float lit = shadow::lit(map, at, soft);
+            CAPTURE(u, v, lit);
+            if (beyond > (soft + 1) * texel)
+                CHECK(lit == 1);
+            else if (beyond < -(soft + 0.5) * texel)
+                CHECK(lit == 0);
+            else
+                CHECK((lit > 0 && lit <= 1));
         }
 }
 

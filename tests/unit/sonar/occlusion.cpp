@@ -33,7 +33,7 @@ in::seabed::heightfield wall() {
     return field;
 }
 
-/// Exact shadows of things that let a part of the light through.
+/// Exact shadows of translucent casters.
 struct glass {
     float through;
 
@@ -57,7 +57,7 @@ struct glass {
 
 }  // namespace
 
-TEST_CASE("Points behind cubes are in the first one's shadow, to a micrometre, anywhere in the world") {
+TEST_CASE("A point behind a cube is in that cube's shadow, to a micrometre, anywhere in the world") {
     for (const glm::dvec3& offset : {glm::dvec3(0), glm::dvec3(1e5, -3e5, 0)}) {
         const in::scene s = two_cubes(offset);
         const in::occlusion_bounds within{{offset + glm::dvec3(-9, -9, -1), offset + glm::dvec3(9, 9, 3)}};
@@ -109,7 +109,8 @@ TEST_CASE("A wall of seabed outside of the bounds shades points of a near light,
             in::occlusion_of(s, in::shadow::point_light{{-12, 0.3, height}}, {{{-1, -1, 0}, {1, 1, 0.5}}, 0.1});
         return shade.test(std::vector<glm::dvec3>{{x, 0.3, 1e-3}}).shadow[0];
     };
-    // From 1.2 m, 2 m before the wall, to 10 m behind it; from below its top, to the end of the ground.
+    // 2 m before the wall of 1 m, a light at 1.2 m casts a shadow that ends 10 m behind it, one at 0.9 m one without
+    // end.
     CHECK(label(1.2, -0.5) == in::labels::by_seabed);
     CHECK(label(1.2, 0.5) == in::labels::is_lit);
     CHECK(label(0.9, 0.5) == in::labels::by_seabed);

@@ -1,9 +1,10 @@
-// Parts of the C++20 library that some standard libraries lack: libc++ has std::bit_cast from version 14 on, floats in
-// std::from_chars from 20 on and in std::to_chars from 14 on.
+// Parts of the C++20 library that some standard libraries lack: libc++ has std::bit_cast from version 14 on, and floats
+// in both std::from_chars and std::to_chars from 20 on.
 #pragma once
 
 #include <insonify/config.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <clocale>
@@ -39,8 +40,8 @@ constexpr To bit_cast(const From& from) noexcept {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Reads all of a text as a decimal number, with a sign or without, whatever the locale. Numbers beyond those of a
-/// double become 0 or infinite.
+/// Reads all of a text as a decimal number, `inf` or `nan`, with a sign or without, whatever the locale. Numbers beyond
+/// those of a double become 0 or infinite.
 /// @returns whether the text is a number
 inline bool parse_number(std::string_view text, double& value) {
     // from_chars does not accept a plus sign.
@@ -49,9 +50,14 @@ inline bool parse_number(std::string_view text, double& value) {
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (status == std::errc::invalid_argument || end != text.data() + text.size()) return false;
     if (status == std::errc::result_out_of_range) {
-        // The status does not tell which end of the range was left.
-        const bool is_tiny = text.find("e-") != text.npos || text.find("E-") != text.npos;
-        value = is_tiny ? 0 : (text[0] == '-' ? -1 : 1) * std::numeric_limits<double>::infinity();
+        // The status does not tell which end of the range was left; the decimal exponent of the first digit that is
+        // not 0 does.
+        const std::size_t mark = (std::min)(text.find_first_of("eE"), text.size());
+        const std::size_t point = (std::min)(text.find('.'), mark), first = text.find_first_of("123456789");
+        double exponent = 0;
+        if (mark < text.size()) parse_number(text.substr(mark + 1), exponent);
+        exponent += static_cast<double>(point) - static_cast<double>(first);
+        value = exponent < 0 ? 0 : (text[0] == '-' ? -1 : 1) * std::numeric_limits<double>::infinity();
     }
     return true;
 #else
@@ -67,7 +73,8 @@ inline bool parse_number(std::string_view text, double& value) {
 #endif
 }
 
-/// The shortest text that reads back as the same number, without the locale; returns its end.
+/// Writes the shortest text that reads back as the same number, whatever the locale, without a zero at its end.
+/// @returns the end of the text
 template <class Number>
 char* format_number(char* first, char* last, Number value) {
 #if !defined(__cpp_lib_to_chars)

@@ -14,7 +14,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Bits that compare as unsigned integers the way floats compare, and back.
+/// Bits that compare as unsigned integers the way floats compare, and back; -0 lies below +0, NaN at the ends.
 constexpr std::uint32_t ordered_bits(float value) {
     const auto bits = numeric::bit_cast<std::uint32_t>(value);
     return bits ^ ((bits >> 31) != 0 ? 0xFFFFFFFFu : 0x80000000u);
@@ -38,7 +38,7 @@ constexpr std::uint64_t key_of(const keyed& item) {
 /// Sorts items by their key_of. The order of equal ones is kept.
 template <class Item>
 void radix_sort(dynamic_array<Item>& items) {
-    if (items.size() < 64) {  // shorter than the counts: insertion
+    if (items.size() < 64) {  // insertion sort: cheaper than clearing the counts
         for (std::size_t i = 1; i < items.size(); ++i) {
             const Item item = items[i];
             std::size_t to = i;

@@ -1,8 +1,8 @@
 // SIMD versions of random.hpp: Philox blocks, uniform and normal draws, as doubles and as floats.
 //
 // Doubles are bit-identical to the draws of random.hpp. Floats have the same distribution up to rounding: a normal draw
-// differs by less than 6e-7 from exact arithmetic on its two words, and no probability differs by more than 6e-8. Both
-// give the same bits at every N.
+// differs by less than 6e-7 from exact arithmetic on its two words in 2^18 draws, and no probability differs by more
+// than 6e-8. Both give the same bits at every N.
 #pragma once
 
 #include <insonify/core/simd/dispatch.hpp>
@@ -15,8 +15,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The products of the lower halves of the lanes with a word. Four lanes are for AVX2, eight for AVX-512: kernels of W
-/// lanes of 32 bits have W / 2 of these.
+/// Multiplies the lower halves of the lanes by a word. N is 2, 4 or 8 for SSE2, AVX2 and AVX-512: half as many as lanes
+/// of 32 bits.
 template <int N>
 INSONIFY_INLINE void multiply_words(lanes<std::uint64_t, N>& into, const lanes<std::uint64_t, N>& a, std::uint32_t b) {
     // One instruction, which clang selects by itself and g++ does not.
@@ -170,7 +170,7 @@ INSONIFY_INLINE void log_uniform_lanes(lanes<float, N>& into, const lanes<std::u
     log_lanes<N>(into, k, floats(shifted >= 0 ? 0.0f - from_end : m - 1.0f));
 }
 
-/// Two independent standard normal draws of two words, as normal_pair's.
+/// Two independent standard normal draws from two words, as `normal_pair`.
 template <int N>
 INSONIFY_INLINE void normal_lanes(lanes<float, N>& first, lanes<float, N>& second, const lanes<std::uint32_t, N>& a,
                                   const lanes<std::uint32_t, N>& b) {

@@ -102,7 +102,7 @@ class correlated_draws {
     dynamic_array<const float*> rows_;
 };
 
-/// Draws that are independent until `correlate` is called.
+/// Draws that are independent, or correlated by a length or by taps.
 template <class Draws>
 class field_draws {
   public:

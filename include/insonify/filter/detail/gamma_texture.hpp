@@ -24,7 +24,7 @@ class gamma_texture {
         expand(shape);
     }
 
-    /// The number at the probability of a standard normal number z.
+    /// The gamma quantile at the probability Phi(z).
     float operator()(float z) const {
         const float place = (std::min)((std::max)(z + static_cast<float>(reach), 0.0f) * static_cast<float>(1 / step),
                                        static_cast<float>(knots - 2));
@@ -48,7 +48,7 @@ class gamma_texture {
 
     /// Integrates the density of y = ln t, exp(shape (1 + y - e^y)), and reads it off at normal probabilities.
     void tabulate(double shape) {
-        const double spread = numeric::square_root(160 / shape) + 60 / shape;  // beyond: less than e^-40
+        const double spread = numeric::square_root(160 / shape) + 60 / shape;  // where the density is e^-40 of its peak
         const double low = -(std::min)(spread, 60.0), high = numeric::log(1 + spread), dy = (high - low) / intervals;
         const auto density = [&](double y) { return numeric::exp(shape * (1 + y - numeric::exp(y))); };
         dynamic_array<double> below{density(low) / shape};  // the tail to the left is exponential
@@ -58,7 +58,7 @@ class gamma_texture {
             below.push_back(below.back() + 0.5 * dy * (last + next));
             last = next;
         }
-        double probability = 1.2798e-12;  // of less than -7
+        double probability = 1.2798e-12;  // Phi(-7)
         std::size_t i = 0;
         for (std::size_t k = 0; k < knots; ++k) {
             const double z = static_cast<double>(k) * step - reach;

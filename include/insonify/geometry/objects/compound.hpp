@@ -49,8 +49,7 @@ inline void validate(const compound& c) {
     detail::require(c.parts.size() <= 65535, "compound.parts.size()", c.parts.size(), "at most 65535");
     for (const compound_part& p : c.parts) {
         validate(p.shape);
-        detail::require(numeric::is_finite(p.reflectivity) && p.reflectivity >= 0, "compound_part.reflectivity",
-                        p.reflectivity, "finite and at least 0");
+        detail::require_not_negative("compound_part.reflectivity", p.reflectivity);
     }
 }
 
