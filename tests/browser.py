@@ -57,7 +57,8 @@ class Browser:
         for domain in ("Runtime", "Log", "Page", "Network"):
             self.call(domain + ".enable", session)
         self.call("Page.navigate", session, url=url)
-        while not any(e.get("method") == "Page.loadEventFired" for e in self.events):
+        loaded = lambda e: e.get("method") == "Page.loadEventFired" and e.get("sessionId") == session
+        while not any(map(loaded, self.events)):
             self.events.append(self.receive())
         return session
 

@@ -190,6 +190,41 @@ std::vector<double> parse_aspects(const std::string& text) {
     return aspects;
 }
 
+namespace {
+
+/// Refuses options that a column of the plan decides for every image.
+void refuse_decided(const plan_table& table, const is_given& given) {
+    constexpr const char* columns[][2] = {{"--seed", "seed"},
+                                          {"--size", "size_px"},
+                                          {"--mode", "mode"},
+                                          {"--chip", "chip_m"},
+                                          {"--reflectivity", "reflectivity"},
+                                          {"--intensity", "intensity"},
+                                          {"--sky", "sky"},
+                                          {"--match", "match"},
+                                          {"--noise", "noise"},
+                                          {"--colormap", "colormap"},
+                                          {"--display", "display"},
+                                          {"--white", "white"},
+                                          {"--display-range", "display_range_db"},
+                                          {"--altitude", "altitude_m"},
+                                          {"--grazing", "light_deg"},
+                                          {"--distance", "distance"},
+                                          {"--beam", "beam_deg"},
+                                          {"--target-size", "target_size_m"},
+                                          {"--aspect", "aspect"},
+                                          {"--burial", "burial"}};
+    for (const auto& [option, column] : columns) {
+        if (!given(option) || !table.has(column)) continue;
+        std::size_t lines = 0;
+        while (lines < table.size() && table.row(lines).find(column) != nullptr) ++lines;
+        if (lines == table.size())
+            throw CLI::ValidationError(option, std::string("the plan has a column ") + column + "; remove either");
+    }
+}
+
+}  // namespace
+
 void apply_plan(options& o, const std::string& path, const is_given& given) {
     for (const char* const name : {"--per-class", "--demo", "--targets", "--empty"})
         if (given(name))
@@ -216,6 +251,7 @@ void apply_plan(options& o, const std::string& path, const is_given& given) {
         if (given("--seabeds")) throw CLI::ValidationError("--seabeds", "the plan has a column seabed; remove either");
         o.seabeds.clear();
     }
+    refuse_decided(*o.table, given);
 }
 
 void apply_aspects(options& o, const std::string& text) {

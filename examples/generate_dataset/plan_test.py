@@ -306,8 +306,8 @@ class Plans(unittest.TestCase):
                 (head + "1.5,ship,3,true\n", "line 2: column index has '1.5'"),
                 (head + "-1,ship,3,true\n", "line 2: column index has '-1'"),
                 (head + "1000000000,ship,3,true\n", "line 2: column index has '1000000000'"),
-                (head + "5,ship,3,true\n4,ship,3,true\n5,ship,3,true\n", "line 4: column index has '5'", "in line 2"),
-                ("id,shape\n1,ship\n1,ship\n", "line 3: column target_id has '1'", "in line 2"),
+                (head + "5,ship,3,true\n4,ship,3,true\n5,ship,3,true\n", "line 4: column index has '5'", "a value that line 2 does not have"),
+                ("id,shape\n1,ship\n1,ship\n", "line 3: column target_id has '1'", "a value that line 2 does not have"),
                 ("id,shape\n1,7\n", "line 2: column class has '7', expected a whole number from 1 to 4"),
                 (head + '0,"ship,3,true\n', "line 2, column 2: opens a quote that is never closed"),
                 (head + '0,"ship"s,3,true\n', "line 2, column 2: goes on after the closing quote"),
@@ -326,7 +326,7 @@ class Plans(unittest.TestCase):
                 ("index,class,recipe,chip_m,mode\n0,cube,published,0,slant_range\n", "line 2: column chip_m has '0'"),
                 ("index,class,recipe,noise\n0,cube,published,fog:3\n", "line 2: column noise has 'fog:3'"),
                 ("index,class,recipe,height_m\n0,cube,published,-2\n", "line 2: column height_m has '-2'")):
-            message = refusal("--out", self.folder / "x", "--size", 32, "--plan", self.table(text))
+            message = refusal("--out", self.folder / "x", "--plan", self.table(text))
             for words in ("t.csv", *said):
                 self.assertIn(words, message, text)
             self.assertFalse((self.folder / "x").exists(), text)  # a refused plan leaves no folder
@@ -397,6 +397,14 @@ class Plans(unittest.TestCase):
         self.assertIn("are more than the 1 of the plan", refusal(*plan, "--count", 2))
         self.assertIn("--first: 1 is not below 1", refusal(*plan, "--first", 1))
         self.assertIn("does not exist", refusal("--out", self.folder / "x", "--plan", self.folder / "no.csv"))
+        sized = "index,class,size_px,chip_m\n0,cube,32,5\n1,cube,{},\n"
+        self.assertIn("--size: the plan has a column size_px; remove either",
+                      refusal("--out", self.folder / "x", "--plan", self.table(sized.format(48)), "--size", 64))
+        # Options are for lines without a value.
+        run("--out", self.folder / "y", "--recipe", "published", "--plan", self.table(sized.format("")), "--size", 64,
+            "--chip", 10)
+        self.assertEqual([(row["size_px"], float(row["chip_m"])) for row in manifest(self.folder / "y")],
+                         [("32", 5), ("64", 10)])
         for aspects in "0:10", "0:0:350", "10:10:0", "a", "0:nan:9", "", "0,", "720":
             self.assertIn("is not first:step:last",
                           refusal("--out", self.folder / "x", "--recipe", "published", f"--aspects={aspects},"), aspects)

@@ -1,5 +1,7 @@
 #include "preview.hpp"
 
+#include <insonify/core/random.hpp>
+
 namespace generator {
 
 namespace {
@@ -74,7 +76,7 @@ function choose() {
   shown = rows.filter(r => (!c || r[at.cls] === c) && (!b || r[at.bottom] === b) &&
     (low === null || (r[k] !== null && r[k] >= low)) && (high === null || (r[k] !== null && r[k] <= high)));
   $("count").textContent = shown.length + " of " + rows.length + " shown" +
-    (data.step > 1 ? "; one in " + data.step + " of " + data.images + " images" : "");
+    (data.step > 1 ? "; about one in " + data.step + " of " + data.images + " images" : "");
   for (const cell of cells.values()) cell.remove();
   cells.clear();
   $("main").scrollTop = 0;
@@ -143,30 +145,30 @@ choose();
 }  // namespace
 
 void preview_page::add(const json& record) {
-    const std::uint64_t number = images_++;
-    if (number % step_ != 0) return;
+    const std::uint32_t lot = insonify::random_sequence(0, 0, images_++).word();
+    if (lot % step_ != 0) return;
     const json& parameters = record.at("parameters");
     if (names_.empty())
         for (const auto& [name, value] : parameters.items()) names_.push_back(name);
     const std::string image = record.at("files").at(0).at("path").get<std::string>();
     const std::size_t class_end = image.find('/', 7), id = image.rfind('/') + 1;
-    json row{image.substr(id, image.rfind('.') - id), image.substr(7, class_end - 7)};
+    json cells{image.substr(id, image.rfind('.') - id), image.substr(7, class_end - 7)};
     const auto bottom =
         parameters.find("seabed") != parameters.end() ? parameters.find("seabed") : parameters.find("bottom");
-    row.push_back(bottom != parameters.end() && bottom->is_string() ? *bottom : json(""));
-    for (const std::string& name : names_) row.push_back(parameters.value(name, json()));
-    rows_.push_back(embedded(row));
-    if (rows_.size() <= max_rows) return;
-    step_ *= 2;
-    for (std::size_t i = 1; 2 * i < rows_.size(); ++i) rows_[i] = std::move(rows_[2 * i]);
-    rows_.resize((rows_.size() + 1) / 2);
+    cells.push_back(bottom != parameters.end() && bottom->is_string() ? *bottom : json(""));
+    for (const std::string& name : names_) cells.push_back(parameters.value(name, json()));
+    rows_.push_back({lot, embedded(cells)});
+    while (rows_.size() > max_rows) {
+        step_ *= 2;
+        std::erase_if(rows_, [&](const row& r) { return r.lot % step_ != 0; });
+    }
 }
 
 std::string preview_page::text(const std::string& title) const {
     std::string page = page_head;
     page += "{\"title\":" + embedded(title) + ",\"images\":" + std::to_string(images_) +
             ",\"step\":" + std::to_string(step_) + ",\"names\":" + embedded(names_) + ",\"rows\":[\n";
-    for (std::size_t i = 0; i < rows_.size(); ++i) page += (i == 0 ? "" : ",\n") + rows_[i];
+    for (std::size_t i = 0; i < rows_.size(); ++i) page += (i == 0 ? "" : ",\n") + rows_[i].text;
     return page + "\n]}" + page_tail;
 }
 
