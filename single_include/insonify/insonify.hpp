@@ -2828,7 +2828,10 @@ class dynamic_array {
             if (!values.empty()) std::memcpy(static_cast<void*>(data_ + size_), values.data(), values.size_bytes());
             size_ += values.size();
         } else {
-            for (const T& value : values) ::new (static_cast<void*>(data_ + size_++)) T(value);
+            for (const T& value : values) {
+                ::new (static_cast<void*>(data_ + size_)) T(value);
+                ++size_;
+            }
         }
     }
     INSONIFY_TAGGED void push_back(T value) {
@@ -3030,7 +3033,7 @@ double gamma_of_mean_one(double shape, const Draw& draw) {
 }
 
 /// The mean of the square root of a gamma-distributed number of mean one: Gamma(shape + 1/2) / (Gamma(shape)
-/// sqrt(shape)), to 1e-12, by its asymptotic series beyond 20.
+/// sqrt(shape)), to a relative error of 5e-12, by its asymptotic series beyond 20.
 inline double mean_root_of_gamma(double shape) {
     double factor = 1, x = shape;
     for (; x < 20; x += 1) factor *= x / (x + 0.5);
@@ -3911,8 +3914,9 @@ class echo_law {
             return field_taps(texture_ ? field_length(static_cast<double>(pixels), intensity)
                                        : field_length(static_cast<double>(pixels), speckle));
         };
-        fields_.correlate(taps(length.x), taps(length.y));
-        if (texture_) texture_field_.correlate(taps(length.x), taps(length.y));
+        const auto along_rows = taps(length.x), along_columns = taps(length.y);
+        fields_.correlate(along_rows, along_columns);
+        if (texture_) texture_field_.correlate(along_rows, along_columns);
     }
 
     /// Intensities of mean one without texture.
@@ -6496,7 +6500,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Whether most triangles share no vertex with the one before, as in shuffled meshes and triangle soups.
+/// Whether most triangles have no index within 63 of one of the triangle before, as in shuffled meshes and triangle
+/// soups.
 inline bool is_incoherent(const mesh& m) {
     std::size_t jumps = 0;
     for (std::size_t i = 1; i < m.triangles.size(); ++i) {
@@ -6668,8 +6673,8 @@ struct lattice_vertices {
     }
 };
 
-/// Whether cells are cut from the lower left to the upper right corner. None unless the triangles are the halves of all
-/// cells, cut the same way and counter-clockwise.
+/// Whether cells are cut from the lower left to the upper right corner. None unless the triangles are halves of cells,
+/// cut the same way and counter-clockwise. @pre as many triangles as all cells have halves
 inline std::optional<bool> rising_diagonals(const mesh& m, const lattice_vertices& v) {
     std::vector<bool> found(m.triangles.size(), false);
     std::optional<bool> is_rising;
@@ -6989,7 +6994,7 @@ struct topology {
     std::size_t degenerate = 0;      ///< triangles with two coincident corners, not counted elsewhere
     std::size_t boundary_edges = 0;  ///< edges with one triangle
     std::size_t tangled_edges = 0;   ///< edges with more than two triangles, or two that traverse it the same way
-    std::size_t inward_pieces = 0;   ///< connected components that face inwards, such as cavities, or enclose nothing
+    std::size_t inward_pieces = 0;   ///< pieces, connected by vertices, that face inwards or enclose nothing
 
     /// Every edge joins two triangles of the same orientation.
     bool closed() const { return triangles > 0 && boundary_edges == 0 && tangled_edges == 0; }
@@ -7023,7 +7028,7 @@ inline std::vector<std::uint32_t> weld(const std::vector<glm::vec3>& positions) 
     return first;
 }
 
-/// Linear in the triangles.
+/// Takes time linear in the positions and, almost, in the triangles.
 /// @throws invalid_input if an index has no position
 inline topology inspect(const mesh& m) {
     validate(m);
@@ -7110,7 +7115,7 @@ enum class surface_kind {
 
 inline namespace INSONIFY_ONCE {
 
-/// Classifies a mesh, in linear time but for sorting positions.
+/// Classifies a mesh, in linear time.
 /// @param m  its indices have positions
 INSONIFY_FUNCTION surface_kind kind_of(const mesh& m);
 
@@ -7269,7 +7274,7 @@ INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m) {
         order_along_curve(facts.shape, facts.box);
     if (facts.shape.normals.empty()) facts.shape.normals = smooth_normals(facts.shape);
     facts.kind = kind_of(facts.shape);
-    // Where else renderers would have to find out what lies below a position.
+    // Without a grid or a box-shaped outline, renderers would have to search for the surface below a position.
     if (facts.kind == surface_kind::heightfield && !facts.grid && !fills_box(facts.shape, facts.box))
         facts.kind = surface_kind::open;
     if (facts.kind != surface_kind::heightfield) facts.grid.reset();
@@ -7494,6 +7499,7 @@ class file_handle {
 /// The bytes of a file.
 /// @throws io_error if it can't be opened or read
 inline std::string file_bytes(const std::string& path) {
+    if (path.find('\0') != path.npos) raise_io(path.c_str(), "can't open for reading: a zero byte in its name");
     errno = 0;
     const file_handle file(path, "rb");
     if (file.get() == nullptr) raise_io(path, "can't open for reading", errno);
@@ -7956,7 +7962,7 @@ enum class cull_mode { none, back, front };
 
 /// The depth test: which of two surfaces a pixel shows.
 enum class keep_depth {
-    smaller,  ///< z = 0 at the camera, growing away from it
+    smaller,  ///< z = 0 at the near plane, growing away from the camera
     larger,   ///< reversed z, or heights seen from above
 };
 
@@ -8072,7 +8078,7 @@ inline namespace INSONIFY_ABI {
 
 /// Statistics of an intensity. By default Rayleigh amplitudes, exponential intensities. The scintillation index,
 /// variance / mean^2 of the intensity, is
-/// (1 + 1 / texture) (1 + (1 + 2 steady) / (looks (1 + steady)^2)) - 1.
+/// (1 + 1 / texture) (1 + (1 + 2 steady) / (looks (1 + steady)^2)) - 1, without the first factor where texture is 0.
 struct speckle_law {
     int looks = 1;      ///< independent intensities that are averaged: 1 to 64
     float texture = 0;  ///< shape of the K-distribution: rock 0.5 to 2, sand 8 to 20; 0: no texture
@@ -8778,9 +8784,9 @@ namespace seabed {
 /// Measured exponents of sea floors are 2.4 to 3.9, 3.25 where nothing is known: APL-UW High-Frequency Ocean
 /// Environmental Acoustic Models Handbook. TR 9407, 1994 (eqs. 7-8).
 struct roughness {
-    float rms = 0.01f;       ///< metres, >= 0; 0 costs nothing
-    float longest = 1.0f;    ///< metres, > 0: cell of the coarsest octave
-    float shortest = 0.04f;  ///< metres, in (0, longest]: no octave has smaller cells
+    float rms = 0.01f;       ///< metres, 0 to below 10^6; 0 costs nothing
+    float longest = 1.0f;    ///< metres, below 10^6: cell of the coarsest octave, half its wavelength
+    float shortest = 0.04f;  ///< metres, 0.0001 to longest: no octave has smaller cells
     float exponent = 3.25f;  ///< in [2, 4]
 
     friend bool operator==(const roughness&, const roughness&) = default;
@@ -9253,7 +9259,7 @@ class gradient_noise {
 /// Octaves of gradient noise, cells halved from one to the next, that make up a `roughness`.
 class power_law_noise {
   public:
-    /// @throws invalid_input for parameters out of the ranges above
+    /// @throws invalid_input for parameters out of the ranges of `roughness`
     power_law_noise(const roughness& r, std::uint64_t seed, stream purpose, std::uint32_t layer = 0) {
         require_metres("roughness.rms", r.rms);
         require_positive_metres("roughness.longest", r.longest);
@@ -9388,8 +9394,8 @@ namespace seabed {
 
 /// Furrows of trawl doors, 0.05 to 0.3 m deep and 0.2 to 2 m wide.
 struct trawl_marks {
-    /// Furrows per metre across them, of all directions together, in [0, 1 / (4 width)]; 0 for none. A line in any
-    /// direction meets 2 / pi of them on average.
+    /// Furrows crossed per metre perpendicular to them, summed over all directions, in [0, 1 / (4 width)]; 0 for none.
+    /// A line in an arbitrary direction crosses 2 / pi as many on average.
     float density = 0;
     float depth = 0.06f;  ///< metres, >= 0
     float width = 0.5f;   ///< metres, from 0.001: between the tops of the berms
@@ -9564,8 +9570,8 @@ class ripple_train {
   public:
     static constexpr std::size_t waves = 32;
 
-    /// Regularizes the zeros of psi, relative to its rms: the amplitude falls to zero at a fork within a few hundredths
-    /// of a wavelength, and slopes stay bounded.
+    /// Regularizes the zeros of psi, relative to its rms: the amplitude falls to zero at a fork over 0.15 /
+    /// (2 pi spread) wavelengths, a quarter of one by default, and slopes stay bounded.
     static constexpr float softening = 0.15f;
 
     /// @param name  of the system, for errors
@@ -9612,7 +9618,7 @@ class ripple_train {
     static constexpr std::size_t points = 256;  // size of the table that a stretch shares
 
     void draw_waves(const ripple_system& r, random_sequence draw) {
-        // Latin hypercube sampling of direction and wave number: few waves suffice for the moments asked for.
+        // Latin hypercube sampling of direction and wave number: few waves suffice for the required moments.
         std::array<double, waves> strata{};
         for (std::uint32_t n = 0; n < waves; ++n) {
             const std::uint32_t other = draw.below(n + 1);
@@ -9635,7 +9641,7 @@ class ripple_train {
             largest = (std::max)(largest, numeric::abs(wave_x_[n]));
         }
 
-        // The fastest wave turns by a sixteenth per lattice step: cubic interpolation is then off by less than 0.0006
+        // The fastest wave turns by a sixteenth per lattice step: cubic interpolation is then off by at most 0.0011
         // of its amplitude.
         step_ = (std::min)(static_cast<double>(r.wavelength), 1 / (16 * (std::max)(largest, 1e-6 * frequency)));
         const double scale = numeric::square_root(1.0 / static_cast<double>(waves));
@@ -9994,8 +10000,8 @@ struct ripples {
     float spread = 0.09f;                  ///< radians, in [0, 0.5]: of the direction
     float bandwidth = 0.09f;               ///< in [0, 0.25]: of the wave number, relative
     float sharpness = 0.25f;               ///< in [0, 0.9]: of the crests, 0 for a sinusoid
-    ripple_system second{.steepness = 0};  ///< other waves' ripples, added; none if they have no height
-    roughness surface{.rms = 0.0025f, .longest = 0.4f};  ///< fine relief on the ripples, beyond their height
+    ripple_system second{.steepness = 0};  ///< a second system that crosses the first; none if its steepness is 0
+    roughness surface{.rms = 0.0025f, .longest = 0.4f};  ///< added to the ripples
     std::uint64_t seed = 1;
     type kind = type::ripples;
 
@@ -10265,13 +10271,14 @@ namespace seabed {
 /// Blocks come in sizes that halve from one class to the next. Above a size there are N of them per square metre,
 /// N ~ size^-sizes; height is proportional to size.
 struct rock {
-    float relief = 0.5f;     ///< metres, >= 0: about the height of outcrops with their blocks
-    float outcrop = 6.0f;    ///< metres, from 0.001: typical distance between outcrops
-    float block = 1.4f;      ///< metres, from 0.001: spacing of the largest blocks, which are 0.6 to 1.8 of it wide
+    float relief = 0.5f;   ///< metres, >= 0: about the height of outcrops with their blocks
+    float outcrop = 6.0f;  ///< metres, from 0.001: typical distance between outcrops
+    float block = 1.4f;  ///< metres, from 0.001: spacing of the largest blocks, whose widths are 0.6 to 1.8 times that
     float smallest = 0.3f;   ///< metres, in [0.001, block]: spacing of the smallest
     float sizes = 2.2f;      ///< in [0, 4]: exponent of the numbers of blocks; at 2 each class covers the same area
     float fracture = 0.5f;   ///< in [0, 1]: fraction of lattice cells that hold a block of the most frequent size
-    float steepness = 2.5f;  ///< > 0: slope of the walls of blocks, 1 is 45 degrees
+    float steepness = 2.5f;  ///< > 0: slope of the walls of blocks, 1 is 45 degrees, where none is buried: burial
+                             ///< scales it by 0.3 to 0.8
     roughness surface{.rms = 0.012f, .longest = 0.8f, .shortest = 0.08f};
     std::uint64_t seed = 1;
     type kind = type::rock;
@@ -10457,7 +10464,7 @@ any bottom_of(Sediment s, std::uint64_t seed = 1) {
                 .kind = kind};
 }
 
-/// Ripples in a sediment.
+/// Ripples labelled as a sediment, whose brightness and speckle they have; relief and roughness are those of `shape`.
 inline ripples rippled(sediment s, ripples shape = {}) {
     shape.kind = type_of(s);
     return shape;
@@ -10714,7 +10721,7 @@ inline constexpr float unknown = -1;               ///< in results::lit, between
 enum class decision : std::uint8_t { lit, dark, undecided };
 
 /// A collective occlusion that decides whole triangles: `structure.decide_triangles(caster, eye, executor)` returns a
-/// result for each triangle of a caster as seen by the camera, or an empty vector.
+/// result for each triangle of a caster as seen by the camera, or an empty array.
 template <class S>
 concept triangle_occlusion = collective_occlusion<S> &&
     requires(const S& structure, std::uint32_t caster, const glm::dvec3& eye, serial_executor& ex) {
@@ -10748,7 +10755,7 @@ concept backscatter_law = requires(const L& law, float s) {
     { law(s) } -> std::convertible_to<float>;
 };
 
-/// Optical Lambert, s, as in the game engine of the paper.
+/// Lambert's law of optics, s.
 struct lambert {
     INSONIFY_MEMBER float operator()(float s) const { return s; }
     template <class Lanes>
@@ -11055,6 +11062,7 @@ INSONIFY_FUNCTION void validate(const scene& s);
 INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s);
 
 /// The same pose, lowered or raised so that one vertex touches the seabed and none is below it. `burial` then sinks it.
+/// Vertices over gaps, or beyond 1e9 m, do not count; without any other the pose is returned as it is.
 /// @param shape  a mesh, a shared mesh, or a view of one; of at least one position
 /// @throws invalid_input for a shape without positions, or a pose out of range
 INSONIFY_FUNCTION pose rest_on(const insonify::seabed::any& seabed, const mesh_view& shape, pose placement);
@@ -11143,7 +11151,7 @@ struct target_label {
 /// One value per pixel of the picture in each image, and a list of the targets.
 struct labels {
     static constexpr std::uint16_t no_instance = 0;     ///< seabed, or neither seabed nor target
-    static constexpr std::uint16_t is_lit = 0;          ///< at least half of the light arrives
+    static constexpr std::uint16_t is_lit = 0;          ///< at least half of the light, or that of its centre, arrives
     static constexpr std::uint16_t by_seabed = 0xFFFF;  ///< in the shadow of the seabed
     static constexpr std::uint8_t no_seabed = 0xFF;     ///< a target, or neither
 
@@ -11182,6 +11190,16 @@ inline void require_numbered_targets(const scene& s) {
     require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
 }
 
+/// @throws invalid_input for an image of another size
+inline void require_sizes(const labels& l, int width, int height, std::string_view expected) {
+    const auto check = [&](const char* name, const auto& of) {
+        require(of.width() == width && of.height() == height, name, of.size(), expected);
+    };
+    check("labels.instance.size()", l.instance);
+    check("labels.shadow.size()", l.shadow);
+    check("labels.seabed.size()", l.seabed);
+}
+
 /// @throws invalid_input for an instance that has no target
 inline void require_listed(const labels& l, const char* name, std::uint16_t instance) {
     require(instance <= l.targets.size(), name, instance, "at most labels.targets.size()");
@@ -11206,6 +11224,7 @@ INSONIFY_FUNCTION image<std::uint8_t> target_mask(const labels& l, std::uint16_t
 
 /// 255 where the seabed is in a target's shadow, 0 elsewhere, on the target itself too.
 /// @param instance  number of the target, from 1; 0 gives the seabed that is lit
+/// @throws invalid_input for images of different sizes
 INSONIFY_FUNCTION image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance);
 
 /// The class of every pixel that shows a target.
@@ -11222,9 +11241,13 @@ INSONIFY_FUNCTION image<std::uint8_t> target_mask(const labels& l, std::uint16_t
 }
 
 INSONIFY_FUNCTION image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance) {
+    detail::require_sizes(l, l.shadow.width(), l.shadow.height(), "that of labels.shadow");
     image<std::uint8_t> mask(l.shadow.width(), l.shadow.height());
-    for (std::size_t i = 0; i < mask.size(); ++i)
-        mask.pixels()[i] = l.shadow.pixels()[i] == instance && l.instance.pixels()[i] == labels::no_instance ? 255 : 0;
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+        const bool is_bottom = l.seabed.pixels()[i] != labels::no_seabed || instance != labels::is_lit;
+        const bool shows_target = l.instance.pixels()[i] != labels::no_instance;
+        mask.pixels()[i] = l.shadow.pixels()[i] == instance && is_bottom && !shows_target ? 255 : 0;
+    }
     return mask;
 }
 
@@ -11248,8 +11271,7 @@ INSONIFY_FUNCTION void measure_targets(labels& l) {
         if (area++ == 0) box = {x, y, x, y};
         box = {(std::min)(box.x0, x), (std::min)(box.y0, y), (std::max)(box.x1, x + 1), (std::max)(box.y1, y + 1)};
     };
-    detail::require_equal("labels.shadow.width()", l.shadow.width(), l.instance.width(), "that of labels.instance");
-    detail::require_equal("labels.shadow.height()", l.shadow.height(), l.instance.height(), "that of labels.instance");
+    detail::require_sizes(l, l.instance.width(), l.instance.height(), "that of labels.instance");
     for (target_label& t : l.targets) t.area = t.shadow_area = 0, t.box = t.shadow_box = {};
     for (int y = 0; y < l.instance.height(); ++y) {
         const auto instances = l.instance.row(y), shadows = l.shadow.row(y);
@@ -11830,7 +11852,7 @@ struct largest_index_kernel {
     }
 };
 
-/// The first index without a position among some triangles.
+/// The largest index of the first triangle that has an index without a position.
 inline std::optional<std::uint32_t> bad_index(std::span<const glm::uvec3> triangles, std::size_t vertices, isa level) {
     if (triangles.empty()) return std::nullopt;
     std::uint32_t largest = 0;
@@ -11844,7 +11866,7 @@ inline std::optional<std::uint32_t> bad_index(std::span<const glm::uvec3> triang
     return std::nullopt;
 }
 
-/// @throws invalid_input for the first index without a position
+/// @throws invalid_input for an index without a position
 template <executor E>
 void require_indices(const mesh_view& m, E& ex) {
     constexpr std::size_t grain = 65536;
@@ -14333,8 +14355,8 @@ class fragment_lanes {
     ints front;                                         ///< mask: seen from the counter-clockwise side
     floats weights[3];                                  ///< barycentric, perspective-correct
 
-    /// Sets `into` to float k of the varyings, interpolated perspective-correctly. Reversing the triangle's winding
-    /// changes no bit.
+    /// Sets `into` to float k of the varyings, interpolated perspective-correctly. Exchanging the triangle's second
+    /// and third vertices changes no bit.
     INSONIFY_INLINE void interpolate(floats& into, int k) const {
         into = weights[0] * values_[0][k] + (weights[1] * values_[1][k] + weights[2] * values_[2][k]);
     }
@@ -17586,6 +17608,20 @@ inline bool is_far_from_origin(const bounding_box& box) {
     return false;
 }
 
+/// Transforms normals: cofactors over the power of two that is their size, so that the lengths of normals, on which
+/// it depends whether they are usable, do not shrink with the pose's scale.
+inline glm::mat3 normal_matrix(const glm::dmat3& linear) {
+    glm::dmat3 areas = numeric::cofactors(linear);
+    double square = 0;
+    for (int i = 0; i < 3; ++i) square = (std::max)(square, numeric::dot(areas[i], areas[i]));
+    if (!(square > 0) || !numeric::is_finite(square)) return glm::mat3(areas);
+    double unit = 1;
+    while (unit * unit > 2 * square) unit /= 2;
+    while (2 * unit * unit < square) unit *= 2;
+    for (int i = 0; i < 3; ++i) areas[i] /= unit;
+    return glm::mat3(areas);
+}
+
 /// Vertex shader of a mesh in the rig's picture.
 struct surface_vertex_shader {
     const overhead_geometry& view;
@@ -17595,7 +17631,7 @@ struct surface_vertex_shader {
     glm::mat3 normals;
 
     surface_vertex_shader(const overhead_geometry& rig, const placed_mesh& shape)
-        : view(rig), linear(shape.to_rig.linear), normals(numeric::cofactors(shape.to_rig.linear)) {
+        : view(rig), linear(shape.to_rig.linear), normals(normal_matrix(shape.to_rig.linear)) {
         // Products of coordinates much larger than the mesh would cancel, and leave their rounding errors.
         if (is_far_from_origin(shape.box)) centre = glm::vec3(shape.box.centre());
         offset = glm::vec3(transform_point(shape.to_rig, glm::dvec3(centre)));
@@ -17633,7 +17669,7 @@ struct drawn_object {
     const shadow::decision* known = nullptr;  ///< lit, dark or undecided, by triangle; null if none is decided
 };
 
-/// The images that shading writes; null pointers are optional.
+/// The images that shading writes; those that may be null are optional.
 struct shaded_images {
     image<float>& picture;
     undecided_light* undecided = nullptr;    ///< if there is a shadow policy
@@ -18249,6 +18285,9 @@ template <model Model, executor_argument Executor = serial_executor>
 heightfield sample(const Model& source, const grid& where, Executor&& ex = serial_executor{}) {
     constexpr insonify::detail::uninitialized uninitialized;
     const auto memory = insonify::detail::memory_of(ex);
+    detail::require(where.width >= 2, "grid.width", where.width, "at least 2");
+    detail::require(where.height >= 2, "grid.height", where.height, "at least 2");
+    detail::require_positive_metres("grid.spacing", where.spacing);
     heightfield result{.heights = image<float>(where.width, where.height, uninitialized, memory),
                        .origin = where.origin + where.spacing * glm::dvec2(where.first),
                        .spacing = where.spacing};
@@ -18560,11 +18599,12 @@ class sampled_bottom {
                 E& ex) {
         seabed::grid grid{.origin = position, .spacing = spacing, .band_limited = true};
         const auto along = [&](int axis) {
+            const double most = (ground.upper[axis] - ground.lower[axis]) / spacing + 4;
+            require(most <= 1 << 20, "vertices of the seabed along an axis", most,
+                    "at most 2^20; reduce `reach` or enlarge `cell`");
             // A vertex more on each side, so that normals in view are not one-sided differences.
             const double first = static_cast<double>(numeric::floor_to_int(ground.lower[axis] / spacing + 1e-6)) - 1;
             const double count = 2 - static_cast<double>(numeric::floor_to_int(-ground.upper[axis] / spacing)) - first;
-            require(count <= 1 << 20, "vertices of the seabed along an axis", count,
-                    "at most 2^20; reduce `reach` or enlarge `cell`");
             first_[axis] = static_cast<int>(first);
             return static_cast<int>(count);
         };
@@ -18805,7 +18845,7 @@ class shadow_pass {
         if constexpr (labelled) {
             if (is_facing && !(lit < 0.5f)) return;
             if (!is_facing && caster >= targets_) caster = own;
-            // A point without a caster is not tested yet.
+            // Without a caster the point is not tested yet, or the light's centre is visible.
             if (caster != shadow::invalid_id)
                 images_.labels.shadow.pixels()[pixel] = labels::of_caster(caster, targets_);
         }
@@ -19119,7 +19159,7 @@ struct mask_difference {
     }
 };
 
-/// Differences of pixel values, in their unit. All are NaN if a pixel is NaN in either image.
+/// Differences of pixel values, in their unit. All but `pixels` are NaN if a pixel is NaN in either image.
 struct pixel_difference {
     std::size_t pixels = 0;
     double mean_square = 0;
@@ -19424,14 +19464,15 @@ struct settings {
         return {.shadow = shadow, .cell = cell, .subpixel_bits = subpixel_bits};
     }
 
-    /// Tolerance for the distance between the facets of a target and its surface, metres, from silhouette_error and
-    /// shadow_edge_error.
+    /// Tolerance for the distance between the facets of a target and its surface, from silhouette_error and
+    /// shadow_edge_error: metres in the shape's own frame, before `placement.scale`.
     ///
     /// A distance d across a camera ray that leans by psi from the vertical moves the image by d / cos psi on a plane
     /// at that height (Thatcher Ulrich. Rendering Massive Terrains using Chunked Level of Detail Control. SIGGRAPH
     /// course, 2002). Across a ray of light at an elevation e it moves the shadow on level ground by d / sin e, and by
     /// d H / (H - h) / sin e where a light at the height H is near and the target is h high.
-    /// @param placement  of the target, which is taken as a ball of `radius` metres around its position
+    /// @param placement  of the target, which is taken as a ball of `radius` metres, in its own frame, around its
+    /// position
     INSONIFY_TAGGED double deviation(const pose& placement, double radius) const {
         const overhead_geometry view(rig);
         const glm::dvec3 at = view.rig_from(to_world(placement)).offset;
@@ -19553,9 +19594,12 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     double many_texels = 8;
     if constexpr (requires { found.shadow.largest; })
         many_texels = (std::min)(many_texels, static_cast<double>(found.shadow.largest) / longer);
-    double chosen = how.finest, least_excess = std::numeric_limits<double>::infinity();
+    const double most = (std::min)(how.finest, pixel / detail::min_cell(view));
+    double chosen = most, least_excess = std::numeric_limits<double>::infinity();
     bool is_enough = false;
-    for (double cells = 1.0 / 16; cells <= how.finest && !is_enough; cells *= 2) {
+    for (double cells = 0, next = (std::min)(1.0 / 16, most); cells < most && !is_enough;
+         next = (std::min)(2 * next, most)) {
+        cells = next;
         const errors all = errors_of(cells, many_texels);
         is_enough = is_within(all, usable);
         const double excess = (std::max)((std::max)(all.shadow_edge / usable.shadow_edge, all.height / usable.height),
@@ -19576,7 +19620,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         }
         found.shadow.texels_per_pixel = static_cast<float>(texels);
     }
-    found.cell = (std::max)(pixel / chosen, detail::min_cell(view));
+    found.cell = pixel / chosen;
     return found;
 }
 
@@ -19620,7 +19664,8 @@ INSONIFY_ARITHMETIC_END
 // Shot noise: replaces each pixel by a Poisson count with the pixel as its mean.
 //
 // Means below 10 are sampled by inversion, larger ones by transformed rejection with squeeze, in 1.1 to 1.2 trials.
-// Both follow the Poisson distribution to within the 2^-32 resolution of their uniform numbers.
+// Both follow the Poisson distribution to within the 2^-32 resolution of their uniform numbers for means up to 1e6, and
+// to 2e-7 at 1e9.
 //
 // Based on: Wolfgang Hormann. The Transformed Rejection Method for Generating Poisson Random Variables. Insurance:
 // Mathematics and Economics 12, 1993 (algorithm PTRS).
@@ -19644,8 +19689,8 @@ inline constexpr std::array<double, 10> stirling_error = [] {
     return error;
 }();
 
-/// ln k! - k ln m + m - ln(k + 1) / 2 for whole k >= 0 and m > 0: minus the logarithm of a Poisson probability, without
-/// the large terms that cancel. To 1e-11.
+/// ln k! - k ln m + m - ln(k + 1) / 2 for whole k >= 0 and m > 0: minus the logarithm of a Poisson probability,
+/// less ln(k + 1) / 2, without the large terms that cancel. Its absolute error is about 1e-13 + 2e-16 m.
 template <int N>
 INSONIFY_INLINE void poisson_deficit(lanes<double, N>& into, const lanes<double, N>& k, const lanes<double, N>& m) {
     using doubles = lanes<double, N>;
@@ -19751,8 +19796,8 @@ class poisson_law {
 }  // namespace detail::inline INSONIFY_FLAGS
 
 /// Poisson counts: J = k / photons, k drawn with the mean I photons. The default is what MATLAB's
-/// imnoise(I, "poisson") does to uint8 images; for its other classes, photons is 65535 (uint16), 1e6 (single) or 1e12
-/// (double), which is no visible noise at all.
+/// imnoise(I, "poisson") does to uint8 images; for its other classes, photons is 65535 (uint16) or 1e6 (single); that
+/// of double, 1e12, lies beyond the range here and is no visible noise at all.
 struct poisson {
     float photons = 255;  ///< mean count of a white pixel, in (0, 1e9]
     std::uint64_t seed = 0;
@@ -19787,9 +19832,11 @@ inline namespace INSONIFY_FLAGS {
 
 /// The same triangles with unit normals. A corner's normal is the mean of the facets around its position that bend away
 /// from its own facet by less than `angle`; a position becomes one vertex for each distinct normal. Facets without area
-/// keep their corners, with +z as normal.
+/// keep their corners, with +z as normal. Positions that no triangle uses are dropped. Takes time quadratic in the
+/// triangles around a position.
 /// @param angle  radians, 0 to pi; 0 makes every facet flat
-/// @throws invalid_input if an index has no position, or for an angle out of range
+/// @throws invalid_input if an index has no position, for normals that do not match the positions, or for an angle out
+/// of range
 inline mesh with_creases(const mesh& m, float angle = 0.7f) {
     validate(m);
     detail::require_range("angle", angle, 0, static_cast<float>(numeric::pi), "0 to pi radians");
@@ -20144,7 +20191,7 @@ class obj_reader {
         const auto count = static_cast<std::int64_t>(given);
         const bool whole = status == std::errc{} && end == digits.data() + digits.size();
         if (!whole || value == 0 || value > count || value < -count) {
-            if (whole && count == 0) fail(std::string(what) + " index " + quoted(digits) + " comes before any " + what);
+            if (count == 0) fail(std::string(what) + " index " + quoted(digits) + " comes before any " + what);
             fail(std::string(what) + " index " + quoted(digits) + " is none of 1 to " + to_text(count) + " or -1 to -" +
                  to_text(count) + ", the lines given so far");
         }
@@ -20245,7 +20292,7 @@ class obj_reader {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The polygons of a Wavefront OBJ text as one mesh, in time linear in its length.
+/// The polygons of a Wavefront OBJ text as one mesh, in time nearly linear in its length.
 ///
 /// Reads `v` (numbers after the third, weights or colours, are ignored), `vn` and `f`; all other lines are skipped.
 /// Polygons become triangles by `triangulate`, in the order of the faces. A position is kept once for each normal it is
@@ -20258,8 +20305,8 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input if `origin` is out of range
 /// @throws io_error with the name and line number for: a coordinate that is missing, no number, or out of range; an
 ///         index that is 0, no integer, or refers to a line not yet given; a face with fewer than 3 corners, or a
-///         concave one with more than 4096; a text without a face, such as the path of a file, which `load_obj` takes;
-///         more than 2 GiB of text
+///         concave one with more than 4096; and with the name alone for a text without a face, such as the path of a
+///         file, which `load_obj` takes, or one of more than 2 GiB
 inline mesh read_obj(std::string_view text, std::string_view name = "OBJ text",
                      const glm::dvec3& origin = glm::dvec3(0)) {
     return detail::obj_reader(text, name, origin).read();
@@ -20651,7 +20698,7 @@ inline section aerofoil(const aerofoil_surface& wing, double t) {
     const auto add = [&](double x, double side) {
         const double half = 5 * wing.thickness *
                             (0.2969 * numeric::square_root(x) - 0.126 * x - 0.3516 * x * x + 0.2843 * x * x * x -
-                             0.0936 * x * x * x * x);  // a trailing edge of 1/20 of the thickness instead of 1/50
+                             0.0936 * x * x * x * x);  // a trailing edge of 1/10 of the thickness instead of 1/50
         out.push_back(nose + glm::dvec3(-x * chord, 0, 0) + side * half * chord * wing.up);
     };
     for (const double x : stations) add(x, 1);
@@ -20803,7 +20850,6 @@ class aeroplane_builder {
         if (is_broken) {
             front.push_back(station(break_at + 1e-4));
             front.back().torn = -0.02 * length_;
-            front.back().x = (std::min)(front.back().x, front[front.size() - 2].x);
             aft.insert(aft.begin(), station(break_at + 2e-4));
             aft.front().torn = 0.02 * length_;
             append_body(fuselage, aft, 0, a_.segments, key_, tail_);
@@ -20981,9 +21027,9 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 /// A rock that stands on z = 0 and fills its box exactly. A boulder is larger than 0.256 m (C. K. Wentworth. A Scale of
-/// Grade and Class Terms for Clastic Sediments. Journal of Geology 30, 1922); the default proportions are those usual
-/// for glacial boulders, 1 : 0.8 : 0.6 (Th. Zingg. Beitrag zur Schotteranalyse. 1935: the borders between disc, rod,
-/// sphere and blade are at 2 : 3).
+/// Grade and Class Terms for Clastic Sediments. Journal of Geology 30, 1922); the default proportions are close to
+/// those usual for glacial boulders, 1 : 0.8 : 0.6 (Th. Zingg. Beitrag zur Schotteranalyse. 1935: the borders between
+/// disc, rod, sphere and blade are at 2 : 3).
 struct boulder {
     glm::vec3 size{1.2f, 1.0f, 0.75f};  ///< metres; the largest at most 100 times the least
     float angularity = 0.6f;            ///< 0: round, 1: bounded by plane fractures
@@ -21118,7 +21164,7 @@ struct crate {
     int boards = 5;                    ///< one above another on each side, 1 to 64
     float gap = 0.1f;                  ///< share of a board's width that is open between two, 0.01 to 0.9
     bool is_open = false;              ///< the lid is missing
-    float damage = 0;                  ///< fraction of side and lid boards that are missing, 0 to 1
+    float damage = 0;                  ///< probability that a board of a side or of the lid is missing, 0 to 1
     std::uint64_t seed = 1;            ///< selects the missing ones
 };
 
@@ -21157,7 +21203,8 @@ inline mesh to_mesh(const crate& c) {
         return extent{low + pitch * i, low + pitch * (i + 1 - static_cast<double>(c.gap))};
     };
 
-    // Boards of the short sides and of lid and floor reach half way into those of the long sides.
+    // Boards of the short sides reach half way into those of the long sides; boards of lid and floor, half way into
+    // those of the short sides.
     for (int i = 0; i < c.boards; ++i) {
         const auto [low, high] = part(i, 0, half.z);
         const double trim = (std::min)(0.05 * t, 0.1 * (high - low));
@@ -21502,9 +21549,9 @@ inline void append_frame(mesh& into, const hull_lines& lines, double u, double s
     append_loft(into, sections);
 }
 
-/// Part of a deck: between two stations, and between two shares of the half breadth.
+/// Part of a deck: between two stations, and between two shares of the half breadth, port positive.
 struct deck_plate {
-    double from, to, left = -1, right = 1;
+    double from, to, starboard = -1, port = 1;
     bool is_split_off = false;  ///< lies a plate's thickness lower, so that it shares no edge with those beside it
 };
 
@@ -21515,7 +21562,7 @@ inline void append_deck(mesh& into, const hull_lines& lines, const deck_plate& p
         const double u = plate.from + (plate.to - plate.from) * k / steps;
         section ring;
         const auto add = [&](double t, double drop) {
-            const double share = plate.left + (plate.right - plate.left) * t;
+            const double share = plate.starboard + (plate.port - plate.starboard) * t;
             // Camber: 1/50 of the breadth, the usual parabola.
             const double camber = 0.04 * lines.half_beam() * (1 - share * share);
             const double split = plate.is_split_off ? 0.3 * lines.plating() : 0.0;
@@ -21535,7 +21582,7 @@ inline void append_coaming(mesh& into, const hull_lines& lines, const deck_plate
         return lines.between(at, lines.deck_w(at), share, lines.deck_height(at) + up);
     };
     const double below = -0.6 * lines.plating();
-    for (const double share : {opening.left, opening.right}) {
+    for (const double share : {opening.starboard, opening.port}) {
         const glm::dvec3 out(0, share > 0 ? thick : -thick, 0);
         const glm::dvec3 a = corner(u[0], share, below), b = corner(u[1], share, below);
         const glm::dvec3 up(0, 0, height);
@@ -21543,7 +21590,7 @@ inline void append_coaming(mesh& into, const hull_lines& lines, const deck_plate
     }
     for (const double at : u) {
         const glm::dvec3 along(at == u[0] ? -thick : thick, 0, 0), up(0, 0, 0.97 * height);
-        const glm::dvec3 a = corner(at, opening.left - 0.02, below), b = corner(at, opening.right + 0.02, below);
+        const glm::dvec3 a = corner(at, opening.starboard - 0.02, below), b = corner(at, opening.port + 0.02, below);
         append_block(into, {{a, a + along, a + along + up, a + up}}, {{b, b + along, b + along + up, b + up}});
     }
 }
@@ -21778,8 +21825,8 @@ inline void append_decks(mesh& into, const hull& h, const hull_lines& lines, con
     double reached = 0.004;
     for (const deck_plate& hatch : hatches) {
         plates.push_back({reached, hatch.from});
-        plates.push_back({hatch.from - 0.001, hatch.to + 0.001, -1, hatch.left, true});
-        plates.push_back({hatch.from - 0.001, hatch.to + 0.001, hatch.right, 1, true});
+        plates.push_back({hatch.from - 0.001, hatch.to + 0.001, -1, hatch.starboard, true});
+        plates.push_back({hatch.from - 0.001, hatch.to + 0.001, hatch.port, 1, true});
         reached = hatch.to;
     }
     plates.push_back({reached, 0.985});
@@ -21869,7 +21916,8 @@ inline compound to_compound(const hull& h) {
         // What collapsed lies flatter, and what fell off it lies on the bottom.
         const affine turn = turned(h.break_roll * (1 - h.collapse)), level = turned(0);
         double lowest = 0;
-        for (const glm::vec3& p : bow[0].positions) lowest = (std::min)(lowest, transform_point(turn, glm::dvec3(p)).z);
+        for (const glm::vec3& p : bow[static_cast<std::size_t>(detail::hull_part::plating)].positions)
+            lowest = (std::min)(lowest, transform_point(turn, glm::dvec3(p)).z);
         const affine raised{turn.linear, turn.offset - glm::dvec3(0, 0, lowest)};
         for (std::size_t i = 0; i < all.size(); ++i) {
             const auto part = static_cast<detail::hull_part>(i);
@@ -21918,7 +21966,7 @@ struct lobster_pot {
     float height = 0.41f;     ///< metres
     float bar = 0.016f;       ///< diameter of the frame, metres, 1/1000 of the largest to 1/8 of the least size
     int hoops = 4;            ///< 2 to 16
-    float mesh_size = 0.07f;  ///< between two twines, metres, 1/64 of the largest size to that size; 0: without a net
+    float mesh_size = 0.07f;  ///< spacing of the twines, metres, 1/64 of the largest size to that size; 0: no net
     float twine = 0.005f;     ///< diameter of the net's bars, metres, 1/2000 of the largest size to `bar`
     float crushed = 0;        ///< 0: upright, 1: hoops bent over until a fifth of the height is left
     int segments = 12;        ///< straight pieces of a hoop, 6 to 256
@@ -22049,7 +22097,7 @@ inline namespace INSONIFY_ABI {
 struct open_pipe {
     float diameter = 0.71f;  ///< outside, metres
     float length = 12;       ///< from end to end, metres
-    float wall = 0.065f;     ///< thickness, metres, 1/10000 of the larger size to below half the diameter
+    float wall = 0.065f;     ///< thickness, metres, 1/10000 of the larger size to below 0.499 of the diameter
     /// Metres by which a flange at either end stands out, 1/10000 of the larger size to the diameter; 0: none.
     float flange = 0;
     float broken = 0;        ///< metres by which the +x end is ragged, at most half the length; 0: cut square
@@ -22065,7 +22113,7 @@ inline void validate(const open_pipe& p) {
     detail::require_size("open_pipe.length", p.length);
     const float larger = p.diameter > p.length ? p.diameter : p.length;
     detail::require(p.wall >= 1e-4f * larger && p.wall < 0.499f * p.diameter, "open_pipe.wall", p.wall,
-                    "at least 1/10000 of the larger size, below half the diameter");
+                    "at least 1/10000 of the larger size, below 0.499 of the diameter");
     detail::require(p.flange == 0 || (p.flange >= 1e-4f * larger && p.flange <= p.diameter), "open_pipe.flange",
                     p.flange, "0, or from 1/10000 of the larger size to the diameter");
     detail::require_range("open_pipe.broken", p.broken, 0, 0.5f * p.length, "0 to half the length");
@@ -22146,7 +22194,7 @@ struct truncated_cone {
     float height = 0.47f;        ///< with the boss, metres, at least diameter / 10000
     /// Metres that the edge of the top is rounded by, at most a fifth of height and of top_diameter; 0: sharp.
     float shoulder = 0.05f;
-    float boss_diameter = 0.22f;  ///< metres, at most 0.8 of the top; 0: none
+    float boss_diameter = 0.22f;  ///< metres, at most 0.8 of the flat top, inside the shoulder; 0: none
     float boss_height = 0.04f;    ///< metres, at most a quarter of the height; 0: none
     int lugs = 2;                 ///< 0 to 8
     int segments = 64;            ///< around the axis, 6 to 8192; see `segments_for`
@@ -22162,8 +22210,8 @@ inline void validate(const truncated_cone& c) {
     detail::require_thickness("truncated_cone.top_diameter", c.top_diameter, c.diameter);
     detail::require(c.shoulder >= 0 && c.shoulder <= 0.2f * (std::min)(c.height, c.top_diameter),
                     "truncated_cone.shoulder", c.shoulder, "0 to a fifth of height and top_diameter");
-    detail::require(c.boss_diameter >= 0 && c.boss_diameter <= 0.8f * c.top_diameter, "truncated_cone.boss_diameter",
-                    c.boss_diameter, "0 to 0.8 top_diameter");
+    detail::require(c.boss_diameter >= 0 && c.boss_diameter <= 0.8f * (c.top_diameter - 2 * c.shoulder),
+                    "truncated_cone.boss_diameter", c.boss_diameter, "0 to 0.8 (top_diameter - 2 shoulder)");
     detail::require(c.boss_height >= 0 && c.boss_height <= 0.25f * c.height, "truncated_cone.boss_height",
                     c.boss_height, "0 to a quarter of the height");
     detail::require_range("truncated_cone.lugs", c.lugs, 0, 8, "0 to 8");
@@ -22244,8 +22292,8 @@ struct tyre {
     float width = 0.195f;         ///< metres, 0.001 to 10 diameters
     float rim_diameter = 0.381f;  ///< of the hole, metres, 0.001 to 0.95 diameters
     float wall = 0.015f;          ///< thickness, metres, at most 0.45 of the width and of diameter - rim_diameter
-    float fill = 0;               ///< depth of sediment in the hole over 0.95 of the inner height: 0, or 0.001 to 1
-    int segments = 64;            ///< around the axis, 6 to 8192; a quarter as many across the tread
+    float fill = 0;     ///< level of sediment in the hole: 0: none; 0.001 to 1: from 0.05 to 0.95 of the inner height
+    int segments = 64;  ///< around the axis, 6 to 8192; a quarter as many across the tread
 };
 
 inline namespace INSONIFY_FLAGS {
@@ -22770,6 +22818,12 @@ class survey_reader {
         for (; at_ < text_.size() && is_blank(text_[at_]); ++at_) line_ += ends_line(at_) ? 1u : 0u;
         return word_here();
     }
+    /// The first word of this line or a later one; a comma or semicolon if its first field is empty.
+    std::string_view first_word() {
+        for (; at_ < text_.size() && is_blank(text_[at_]) && !is_comma(text_[at_]); ++at_)
+            line_ += ends_line(at_) ? 1u : 0u;
+        return at_ < text_.size() && is_comma(text_[at_]) ? text_.substr(at_, 1) : word_here();
+    }
     /// A field of a line, and what stands before it: ',', ';' or, for blanks alone, ' '.
     struct field {
         std::string_view text;
@@ -22802,7 +22856,7 @@ class survey_reader {
     double number(const char* what) { return number(word(), what); }
     double number(std::string_view digits, const char* what) const {
         if (digits.empty())
-            fail((at_ < text_.size() ? "the line ends before " : "the text ends before ") + std::string(what));
+            fail(at_ < text_.size() ? std::string(what) + " is missing" : "the text ends before " + std::string(what));
         double value = 0;
         if (!insonify::detail::parse_number(digits, value))
             fail(insonify::detail::quoted(digits) + " is not a number, expected " + what);
@@ -22939,7 +22993,7 @@ struct grid_soundings {
 
 inline grid_soundings read_soundings(survey_reader& in, double spacing, float scale) {
     grid_soundings found;
-    for (std::string_view first; !(first = in.word()).empty(); in.skip_line()) {
+    for (std::string_view first; !(first = in.first_word()).empty(); in.skip_line()) {
         const std::size_t digit = first.find_first_not_of("+-.");  // after a sign and a point at most
         const bool is_number = digit <= 2 && first[digit] >= '0' && first[digit] <= '9';
         if (!is_number) {
@@ -22992,6 +23046,7 @@ inline namespace INSONIFY_FLAGS {
 /// @param scale  metres up per unit of the file; -1 for depths in metres
 /// @param name   of the text, for errors
 /// @throws io_error for a text that isn't such a grid, saying which line and why
+/// @throws invalid_input for a scale that is not finite
 inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::string_view name = "grid") {
     detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");
     detail::survey_reader in(text, name);
@@ -23016,13 +23071,14 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
 /// it, or NaN if there is none. x and y are metres: project longitudes and latitudes first, for example to UTM. Lines
 /// end with LF, CR LF or CR. Lines that do not begin with a number or have an empty cell for z are skipped, and so is
 /// the rest of a line after z.
-/// @param spacing  metres between vertices, > 0; vertices are multiples of it
+/// @param spacing  metres between vertices, > 0 and < 10^6; vertices are multiples of it
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors
 /// @throws io_error for a text without soundings or with none but missing data, an Esri grid, a line of fewer than
 ///         three numbers or with decimal commas, soundings that span less than a spacing or crowd at a few vertices,
-///         as those in degrees do, or soundings so far apart that there are more than 1024 vertices for each, or more
-///         than 2^26
+///         as those in degrees do, positions beyond 1e9 metres or 2^53 spacings, or soundings so far apart that there
+///         are more than 1024 vertices for each, or more than 2^26
+/// @throws invalid_input for a spacing out of its range or a scale that is not finite
 inline heightfield parse_xyz(std::string_view text, double spacing, float scale = 1, std::string_view name = "xyz") {
     detail::require_positive_metres("spacing", spacing);
     detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");
@@ -23543,7 +23599,7 @@ struct flatten {
 struct smooth {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 1;      ///< metres, > 0 and at most 2^17 lengths: with its edge
-    float length = 0.25f;  ///< metres, > 0; rounded to eight bits, so that its multiples are exact
+    float length = 0.25f;  ///< metres, from 0.001; rounded to eight bits, so that its multiples are exact
 };
 
 /// A straight slope between two points, like a slipway.
@@ -23558,15 +23614,16 @@ struct stamp {
     std::vector<glm::dvec2> path;  ///< at least one point
     float radius = 0.3f;           ///< metres, > 0: half the width of a furrow, with its edges
     float height = -0.1f;          ///< metres, in the middle; negative to dig
-    float every = 0;               ///< metres along the path from mark to mark; 0: a continuous furrow
+    float every = 0;               ///< metres along the path from mark to mark, from 0.001; 0: a continuous furrow
 };
 
-/// Sediment heaped up to a level, to half bury a target. Higher ground stays, and so does ground 100 m below the level.
+/// Sediment heaped up to a level, to half bury a target. Higher ground stays. The slopes end 100 m below the
+/// level, radius + 100 / slope from the centre along x and y: over deeper ground the heap ends in a cliff.
 struct heap {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 0.5f;  ///< metres, >= 0: of its level top
     float level = 0.2f;   ///< metres above the datum
-    float slope = 0.6f;   ///< > 0: of its sides; sand lies at 0.6, mud flatter
+    float slope = 0.6f;   ///< from 0.001: of its sides; sand lies at 0.6, mud flatter
 };
 
 /// One change of a seabed.
@@ -24130,7 +24187,7 @@ inline namespace INSONIFY_FLAGS {
 
 /// Share of the light that reaches a point, averaged over (2 radius + 1)^2 texels; surfaces that face away count as
 /// level.
-/// @param radius  texels, 0 to 8; 0 is the nearest texel alone
+/// @param radius  texels; 0 is the nearest texel alone. @pre 0 to 8
 inline float lit(const height_map& map, const receiver_plane& r, int radius) {
     const detail::map_receiver at(map, r);
     if (at.is_beyond(radius)) return 1;
@@ -24170,10 +24227,10 @@ inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a value out of its range
 inline void validate(const map_layout& m) {
-    insonify::detail::require(m.texels_per_pixel > 0 && numeric::is_finite(m.texels_per_pixel), "texels_per_pixel",
-                              m.texels_per_pixel, "above 0");
-    insonify::detail::require(m.largest >= 1 && m.largest <= 32768, "largest", m.largest, "1 to 32768");
-    insonify::detail::require(m.radius >= 0 && m.radius <= 8, "radius", m.radius, "0 to 8 texels");
+    insonify::detail::require(m.texels_per_pixel > 0 && numeric::is_finite(m.texels_per_pixel),
+                              "map_layout.texels_per_pixel", m.texels_per_pixel, "above 0");
+    insonify::detail::require(m.largest >= 1 && m.largest <= 32768, "map_layout.largest", m.largest, "1 to 32768");
+    insonify::detail::require(m.radius >= 0 && m.radius <= 8, "map_layout.radius", m.radius, "0 to 8 texels");
 }
 
 /// The height maps of casters under one parallel light.
@@ -24404,9 +24461,9 @@ class penumbra_occlusion {
 
 }  // namespace INSONIFY_FLAGS
 
-/// Soft edges: exact shadows from several points of a disc light. Each point costs as much as `exact`. The caster is
-/// the one that blocks the light's centre. The disc of a point light faces the origin of the frame in which the light
-/// is described.
+/// Soft edges: exact shadows from several points of a disc light. Each takes the time, and until the picture is
+/// finished the memory, of `exact`. The caster is the one that blocks the light's centre. The disc of a point light
+/// faces the origin of the frame in which the light is described.
 struct penumbra {
     float diameter = static_cast<float>(numeric::to_radians(0.5));  ///< seen from the ground, 0 to 1 radian
     int samples = 16;  ///< points on the disc, the first at its centre; 1 to 1024
@@ -24501,7 +24558,7 @@ INSONIFY_ARITHMETIC_END
 //
 // Lengths are metres. `altitude` is the sonar's above the seabed, `ground` a distance across the track on the seabed,
 // `height` that of a point above the seabed. Results that do not exist are 0 (a distance inside the water column) or
-// infinity (the shadow of an object as high as the sonar), never NaN for arguments within 1e150.
+// infinity (the shadow of an object as high as the sonar), never NaN for lengths within 1e150 and angles within a turn.
 //
 // Based on: P. Blondel. The Handbook of Sidescan Sonar. 2009.
 
@@ -24630,7 +24687,10 @@ struct vertical_beam {
     float side_lobes = 1e-3f;                                       ///< two-way power relative to that on the axis
     /// @param across, down  of the unit vector along the ray
     INSONIFY_MEMBER double over_direction(double across, double down) const {
-        const double off = (numeric::atan2(down, across) - static_cast<double>(tilt)) / static_cast<double>(beamwidth);
+        double off = numeric::atan2(down, across) - static_cast<double>(tilt);
+        if (off > numeric::pi) off -= 2 * numeric::pi;
+        if (off < -numeric::pi) off += 2 * numeric::pi;
+        off /= static_cast<double>(beamwidth);
         return static_cast<double>(side_lobes) + numeric::exp(-5.545177444479562 * off * off);  // 8 ln 2
     }
 };
@@ -24647,10 +24707,10 @@ struct horizontal_beam {
         const double off = along / (range * static_cast<double>(beamwidth));
         return numeric::exp(-5.545177444479562 * off * off);
     }
-    /// Correlation length (1 / e) of speckle intensities along the track, metres. Two pings correlate as long as the
-    /// sonar moves by less than a fraction of its array, so that phases stay the same, and of the footprint, so that
-    /// the scatterers do. Gaussian patterns make both correlations Gaussian, with lengths of 0.2650 wavelength /
-    /// beamwidth and 0.6006 range x beamwidth.
+    /// Correlation length (1 / e) of speckle intensities along the track, metres. Two pings correlate while the sonar
+    /// has moved by only a fraction of its array (phases persist) and of the footprint (scatterers persist). Gaussian
+    /// patterns make both correlations Gaussian, with lengths of 0.2650 wavelength / beamwidth and 0.6006 range x
+    /// beamwidth.
     /// @param wavelength  of the sound, metres: 0.0033 at 450 kHz
     INSONIFY_TAGGED double speckle_length(double range, double wavelength) const {
         const double by_footprint = 0.6005612 * range * static_cast<double>(beamwidth);
@@ -24662,7 +24722,7 @@ struct horizontal_beam {
 /// The pulse: a rectangle around the range of every echo.
 struct pulse {
     float length = 0.03f;  ///< metres of range: c x duration / 2, or c / (2 x bandwidth)
-    INSONIFY_MEMBER double duration() const { return static_cast<double>(length); }
+    INSONIFY_MEMBER double range_length() const { return static_cast<double>(length); }
 };
 
 /// The mean intensity of the receiver's noise. Speckle makes it fluctuate.
@@ -24699,8 +24759,8 @@ struct time_varied_gain {
 };
 
 /// Gain under which level seabed at the datum, of reflectivity 1, has intensity 1, whatever the other parts are: beam
-/// pattern, spreading, law and area. At grazing angles above `steepest` it is constant, so that the first return stays
-/// bright.
+/// pattern, spreading, law and area. Above `steepest`, and before the first return, it takes the grazing angle to be
+/// `steepest`, so that the first return stays bright; losses by range are still compensated.
 struct level_gain {
     float steepest = static_cast<float>(numeric::pi / 4);  ///< radians, below pi / 2
     template <class LevelAt>
@@ -24776,7 +24836,7 @@ concept footprint_part = requires(const P& p) {
 };
 template <class P>
 concept pulse_part = requires(const P& p) {
-    { p.duration() } -> std::convertible_to<double>;
+    { p.range_length() } -> std::convertible_to<double>;
 };
 template <class P>
 concept noise_part = requires(const P& p) {
@@ -24875,8 +24935,8 @@ class sonar_equation {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/detail/equation_interface.hpp ------------------------------------
-// Virtual interface of sonar equations, so that tracing is compiled once for all lists of parts. It returns factors
-// once per ray of a fan, and once per bin and altitude, never per echo.
+// Virtual interface of sonar equations, so that tracing is compiled once for all lists of parts. Its
+// functions are called once per ray of a fan, or once per bin and altitude, never per echo.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -24917,7 +24977,7 @@ struct equation_of final : equation_interface {
     double pulse_length() const override {
         double length = 0;
         equation.for_each([&](const auto& part) {
-            if constexpr (pulse_part<decltype(part)>) length = part.duration();
+            if constexpr (pulse_part<decltype(part)>) length = part.range_length();
         });
         return length;
     }
@@ -25447,8 +25507,8 @@ struct bottom_point {
 class bottom_profile {
   public:
     /// @param step   metres between vertices, at least those between the fan's rays on the ground
-    /// @param range  ground range of the last bin's end; the profile goes on for a step, so that it meets the ray that
-    ///               falls on either side of it
+    /// @param range  ground range of the last bin's end; the profile extends one step further, so that a ray at the end
+    ///               still meets a facet
     bottom_profile(const bottom_tiles& tiles, double step, double range)
         : tiles_(tiles), step_(step), end_(static_cast<std::size_t>(numeric::floor_to_int(range / step)) + 3) {}
 
@@ -25696,8 +25756,8 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/sonar/side_scan/detail/ping_fan.hpp ----------------------------------------------
 // The rays of a ping, in the plane across the track, from nadir outwards.
 //
-// Rays that meet level ground within the range have equal steps there. Steeper ones, for objects above it, have equal
-// angles: neighbours are at most a bin apart on a vertical wall at the largest range.
+// Rays that meet level ground within the range have equal steps there. Flatter ones, up to the zenith, meet objects
+// above it and have equal angles: neighbours are at most a bin apart on a vertical wall at the largest range.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -26186,7 +26246,8 @@ class target_hits {
         return covered > 1 - 1e-9 ? 1 : covered;
     }
 
-    /// The target that most of ray k hits in front of a range, if more than half of it hits targets; else is_lit.
+    /// The target that most of ray k hits, if more than half of the ray hits targets and its nearest hit is in front of
+    /// `range`; else is_lit.
     std::uint16_t occluder(std::size_t k, double range) const {
         return k < occluders_.size() && occluders_[k].range < range ? occluders_[k].instance : labels::is_lit;
     }
@@ -26402,14 +26463,14 @@ class ping_tracer {
                         std::span<const sliced_target> targets) {
         const double altitude = p.position().z, first = static_cast<double>(window.first_range);
         if (!skips_foreground(relief, first, p)) return 0;
-        const double lowest = altitude - relief.lowest, begin = first - 4 * window.bin();
-        const double square = window.counts_time ? begin * begin - lowest * lowest : begin * begin;
-        const double place = begin > 0 && square > 0 ? numeric::square_root(square) - 4 * cell : 0;
+        const double deepest = altitude - relief.lowest, begin = first - 4 * window.bin();
+        const double square = window.counts_time ? begin * begin - deepest * deepest : begin * begin;
+        const double nearest = begin > 0 && square > 0 ? numeric::square_root(square) - 4 * cell : 0;
         // Targets that are nearer than the window's seabed, or all of whose echo comes through a gap.
         for (const sliced_target& t : targets)
-            if (t.is_met_by(p, 1e9) && (t.nearest(p) < place || t.top() < relief.lowest)) return 0;
+            if (t.is_met_by(p, 1e9) && (t.nearest(p) < nearest || t.top() < relief.lowest)) return 0;
         // The highest possible crest that occludes the lowest possible ground there.
-        return (std::max)(0.0, place * (altitude - relief.highest) / lowest - 4 * cell);
+        return (std::max)(0.0, nearest * (altitude - relief.highest) / deepest - 4 * cell);
     }
 
   private:
@@ -27176,7 +27237,7 @@ struct seabed_speckle {
     /// field: beside a steady echo it is up to 1.4 times as long; a texture has its own length.
     float along_track = 1;
     float across_track = 1;    ///< the same in bins
-    float texture_length = 3;  ///< correlation length of textures in pings and bins, 1 to 1024
+    float texture_length = 3;  ///< pings and bins between nodes of the texture's lattice, 1 to 1024; 1 / e at 0.4 of it
     std::uint64_t seed = 1;
 };
 
@@ -27293,8 +27354,7 @@ template <executor_argument E = serial_executor>
 frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex = {}) {
     const int port = r.rows.port_columns;
     detail::require_range("rows.port_columns", port, 0, r.image.width(), "0 to the width of the recording");
-    detail::require_equal("labels.seabed.width()", r.labels.seabed.width(), r.image.width(), "that of the image");
-    detail::require_equal("labels.seabed.height()", r.labels.seabed.height(), r.image.height(), "that of the image");
+    detail::require_sizes(r.labels, r.image.width(), r.image.height(), "that of the image");
     const seabed_speckle completed = with_legend(s, r.labels.legend);
     if (port == 0) {
         r.image = with_speckle(r.image.view(), r.labels.seabed.view(), completed, r.rows, ex);
@@ -27434,10 +27494,10 @@ inline void require_within_reach(const ping& p, const std::string& name) {
 template <across_track Axis, class PingOfRow>
 void apply_tone(frame<labels>& r, const PingOfRow& ping_of_row, const side_scan_rig<Axis>& rig, const bottom_tone& tone,
                 executor_ref ex) {
+    require(r.rows.port_columns == 0, "rows.port_columns", r.rows.port_columns, "0, as of a recording of one side");
+    require(r.rows.side == rig.side, "rows.side", static_cast<int>(r.rows.side), "the side of the rig");
     require_equal("rig.bins", rig.bins, r.image.width(), "the recording's width");
-    const bool are_labelled =
-        r.labels.seabed.width() == r.image.width() && r.labels.seabed.height() == r.image.height();
-    require(are_labelled, "labels.seabed.size()", r.labels.seabed.size(), "that of the image");
+    require_sizes(r.labels, r.image.width(), r.image.height(), "that of the image");
     const tone_sampler level(tone);
     if (tone.is_none()) return;
     const double first = static_cast<double>(rig.first_range), bin = rig.bin();
@@ -27478,7 +27538,7 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 ///
 /// @param r  a result of `render` with this rig, before noise and speckle
 /// @throws invalid_input for a rig or a parameter out of its range, a picture from above, or a recording of another
-///         width, without labels or with ping numbers beyond 2^31
+///         side or width, of both sides, without labels or with ping numbers beyond 2^31
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
@@ -27498,12 +27558,13 @@ frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const b
 ///
 /// @param r      a result of `record` with this track and rig, before noise and speckle
 /// @param track  the pings of its rows, in the order in which they were recorded
-/// @throws invalid_input for a rig, a ping or a parameter out of its range, or a recording of another width, without
-///         labels or of another number of pings
+/// @throws invalid_input for a rig, a ping or a parameter out of its range, a picture from above, or a recording of
+///         another side, width or number of pings, of both sides, or without labels
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, std::span<const ping> track, const side_scan_rig<Axis>& rig,
                         const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
+    detail::require(r.rows.step != 0, "rows.step", r.rows.step, "1 or -1, as of a recording");
     detail::require_equal("track.size()", track.size(), static_cast<std::size_t>(r.image.height()),
                           "the number of the recording's rows");
     for (std::size_t i = 0; i < track.size(); ++i)
@@ -27526,8 +27587,8 @@ INSONIFY_ARITHMETIC_END
 // Presets of sonar classes: resolution, range and display.
 //
 // Values are typical of a class, rounded from data sheets of the instruments that are named; a generator varies them:
-// beams are between the -3 dB points of one way, resolutions are c / (2 bandwidth), ranges are usable ones over sand.
-// Absorption is that of salt water (M. A. Ainslie, J. G. McColm. A Simplified Formula for Viscous and Chemical
+// beamwidths are one-way, between the -3 dB points, resolutions are c / (2 bandwidth), ranges are usable ones over
+// sand. Absorption is that of salt water (M. A. Ainslie, J. G. McColm. A Simplified Formula for Viscous and Chemical
 // Absorption in Sea Water. JASA 103, 1998, at 10 degrees, 20 m). A towed sonar is flown at 10 to 20 % of its range
 // above the bottom (NOAA. Hydrographic Surveys Field Procedures Manual, 2014, side scan sonar: 8 to 20 %).
 
@@ -27558,12 +27619,14 @@ struct instrument {
         return is_synthetic_aperture() ? static_cast<double>(along_track_resolution)
                                        : slant_range * static_cast<double>(beamwidth);
     }
-    /// Correlation length (1 / e) of speckle intensities across the track, metres: 0.516 of the resolution for a pulse
-    /// with a flat band, whose correlation is the square of sin(u) / u.
-    INSONIFY_MEMBER double grain_across() const { return 0.516 * static_cast<double>(range_resolution); }
+    /// Correlation length (1 / e) of speckle intensities, in resolutions, for a pulse or an aperture with a flat band,
+    /// whose correlation is the square of sin(u) / u.
+    static constexpr double flat_band_grain = 0.5234;
+    /// Correlation length of speckle intensities across the track, metres.
+    INSONIFY_MEMBER double grain_across() const { return flat_band_grain * static_cast<double>(range_resolution); }
     /// The same along the track: see horizontal_beam::speckle_length.
     INSONIFY_MEMBER double grain_along(double slant_range) const {
-        return is_synthetic_aperture() ? 0.516 * static_cast<double>(along_track_resolution)
+        return is_synthetic_aperture() ? flat_band_grain * static_cast<double>(along_track_resolution)
                                        : horizontal().speckle_length(slant_range, static_cast<double>(wavelength()));
     }
 };
@@ -27621,7 +27684,8 @@ inline namespace INSONIFY_ABI {
 /// The region of the points that will be tested, and the sampling of the seabed there.
 struct occlusion_bounds {
     bounding_box box;  ///< contains all points, in the world; not empty
-    double cell = 0;   ///< metres between vertices of the seabed; 0: a 512th of the box's longer side
+    double cell = 0;   ///< metres between vertices of the seabed; 0: a 512th of the box's longer side, or 0.001 of its
+                       ///< height if more
     double reach = 8;  ///< how far towards the light the seabed is sampled at most, along either axis, in longer sides
 };
 
@@ -27802,8 +27866,8 @@ INSONIFY_ARITHMETIC_END
 //
 // `render_options` are those of overhead pictures, `record_options` those of side-scan pictures. They share a
 // backscatter law, the spacing `cell` of the seabed's vertices, `with(law)` and `without_labels()`; each adds what its
-// sonar alone has: shadow policy and rasterizer, or the parts of the sonar equation. They have no common base, whose
-// members designated initializers could not name. Code for any rig starts from the rig:
+// sonar alone has: shadow policy and rasterizer, or the parts of the sonar equation. They share no base class, because
+// designated initializers cannot name members of a base. Code for any rig starts from the rig:
 //
 //     in::render(scene, rig, in::options_for(rig).with(law).without_labels())
 
@@ -27864,6 +27928,11 @@ inline void check_length(const char* name, float value) {
     require_range(name, value, 1, 1e9f, "1 to 1e9 pixels");
 }
 
+/// A gain as a float: finite, so that shadows stay 0.
+inline float gain_of(double decibels) {
+    return static_cast<float>((std::min)(from_decibels(decibels), 0x1p127));
+}
+
 /// Pass of a range_gain_error: factors by column, computed once for each.
 template <class Error>
 class range_gain_law {
@@ -27875,9 +27944,9 @@ class range_gain_law {
         first_ = area.x;
         factors_.clear();
         for (int i = 0; i < area.width; ++i)
-            factors_.push_back(static_cast<float>(from_decibels(
-                static_cast<double>(e_.slope) * ((i + 0.5) / area.width - 0.5) +
-                static_cast<double>(e_.rms) * smooth_noise((area.x + i) / static_cast<double>(e_.length), curve_))));
+            factors_.push_back(gain_of(static_cast<double>(e_.slope) * ((i + 0.5) / area.width - 0.5) +
+                                       static_cast<double>(e_.rms) *
+                                           smooth_noise((area.x + i) / static_cast<double>(e_.length), curve_)));
     }
     template <std::same_as<float> Pixel>
     Pixel operator()(Pixel intensity, int x, int) const {
@@ -27909,8 +27978,8 @@ class banding_law {
   private:
     float factor_of(std::int64_t ping) const {
         const double at = static_cast<double>(ping) / static_cast<double>(b_.length);
-        return static_cast<float>(from_decibels(static_cast<double>(b_.drift) * smooth_noise(at, drift_) +
-                                                static_cast<double>(b_.jitter) * lattice_normal(ping, 0, 0, jitter_)));
+        return gain_of(static_cast<double>(b_.drift) * smooth_noise(at, drift_) +
+                       static_cast<double>(b_.jitter) * lattice_normal(ping, 0, 0, jitter_));
     }
 
     Banding b_;
@@ -27925,8 +27994,8 @@ class banding_law {
 /// rows.
 struct range_gain_error {
     float rms = 1.5f;    ///< decibels of the random curve, 0 to 60
-    float length = 120;  ///< bins between nodes of the curve; values two nodes apart are independent
-    float slope = 0;  ///< decibels from the first column of the given picture to its last, -60 to 60; 0 in the middle
+    float length = 120;  ///< bins between nodes of the curve, 1 to 1e9; values two nodes apart are independent
+    float slope = 0;     ///< decibels from the left edge of the given picture to the right, -60 to 60; 0 in the middle
     std::uint64_t seed = 1;
 
     using is_filter = std::true_type;
@@ -27944,7 +28013,7 @@ struct range_gain_error {
 /// of each. Row `y` is ping first_ping + step * y, so that recordings made in pieces fit together.
 struct ping_banding {
     float drift = 1;              ///< decibels (rms), 0 to 60
-    float length = 40;            ///< pings between nodes of the drift
+    float length = 40;            ///< pings between nodes of the drift, 1 to 1e9
     float jitter = 0.5f;          ///< decibels (rms), 0 to 60
     std::int64_t first_ping = 0;  ///< within 2^61
     int step = 1;                 ///< 1 or -1
@@ -27998,14 +28067,7 @@ frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from,
     detail::require(slant.rows.step != 0, "slant.rows.step", slant.rows.step, "1 or -1, as of a recording");
     detail::require(slant.rows.port_columns == 0, "slant.rows.port_columns", slant.rows.port_columns,
                     "0, as of a recording of one side");
-    if constexpr (std::is_same_v<Labels, labels>) {
-        const auto require_size = [&](const char* name, const auto& of) {
-            detail::require(of.width() == bins && of.height() == rows, name, of.size(), "that of the image");
-        };
-        require_size("labels.instance.size()", slant.labels.instance);
-        require_size("labels.shadow.size()", slant.labels.shadow);
-        require_size("labels.seabed.size()", slant.labels.seabed);
-    }
+    if constexpr (std::is_same_v<Labels, labels>) detail::require_sizes(slant.labels, bins, rows, "that of the image");
     detail::require(altitudes.empty() || altitudes.size() == static_cast<std::size_t>(rows), "altitudes.size()",
                     altitudes.size(), "0 or one per row");
     for (const double altitude : altitudes) detail::require_finite("altitudes", altitude);

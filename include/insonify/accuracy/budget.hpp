@@ -62,14 +62,15 @@ struct settings {
         return {.shadow = shadow, .cell = cell, .subpixel_bits = subpixel_bits};
     }
 
-    /// Tolerance for the distance between the facets of a target and its surface, metres, from silhouette_error and
-    /// shadow_edge_error.
+    /// Tolerance for the distance between the facets of a target and its surface, from silhouette_error and
+    /// shadow_edge_error: metres in the shape's own frame, before `placement.scale`.
     ///
     /// A distance d across a camera ray that leans by psi from the vertical moves the image by d / cos psi on a plane
     /// at that height (Thatcher Ulrich. Rendering Massive Terrains using Chunked Level of Detail Control. SIGGRAPH
     /// course, 2002). Across a ray of light at an elevation e it moves the shadow on level ground by d / sin e, and by
     /// d H / (H - h) / sin e where a light at the height H is near and the target is h high.
-    /// @param placement  of the target, which is taken as a ball of `radius` metres around its position
+    /// @param placement  of the target, which is taken as a ball of `radius` metres, in its own frame, around its
+    /// position
     INSONIFY_TAGGED double deviation(const pose& placement, double radius) const {
         const overhead_geometry view(rig);
         const glm::dvec3 at = view.rig_from(to_world(placement)).offset;
@@ -191,9 +192,12 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     double many_texels = 8;
     if constexpr (requires { found.shadow.largest; })
         many_texels = (std::min)(many_texels, static_cast<double>(found.shadow.largest) / longer);
-    double chosen = how.finest, least_excess = std::numeric_limits<double>::infinity();
+    const double most = (std::min)(how.finest, pixel / detail::min_cell(view));
+    double chosen = most, least_excess = std::numeric_limits<double>::infinity();
     bool is_enough = false;
-    for (double cells = 1.0 / 16; cells <= how.finest && !is_enough; cells *= 2) {
+    for (double cells = 0, next = (std::min)(1.0 / 16, most); cells < most && !is_enough;
+         next = (std::min)(2 * next, most)) {
+        cells = next;
         const errors all = errors_of(cells, many_texels);
         is_enough = is_within(all, usable);
         const double excess = (std::max)((std::max)(all.shadow_edge / usable.shadow_edge, all.height / usable.height),
@@ -214,7 +218,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         }
         found.shadow.texels_per_pixel = static_cast<float>(texels);
     }
-    found.cell = (std::max)(pixel / chosen, detail::min_cell(view));
+    found.cell = pixel / chosen;
     return found;
 }
 

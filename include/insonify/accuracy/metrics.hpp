@@ -49,7 +49,7 @@ struct mask_difference {
     }
 };
 
-/// Differences of pixel values, in their unit. All are NaN if a pixel is NaN in either image.
+/// Differences of pixel values, in their unit. All but `pixels` are NaN if a pixel is NaN in either image.
 struct pixel_difference {
     std::size_t pixels = 0;
     double mean_square = 0;

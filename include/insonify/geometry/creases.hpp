@@ -24,9 +24,11 @@ inline namespace INSONIFY_FLAGS {
 
 /// The same triangles with unit normals. A corner's normal is the mean of the facets around its position that bend away
 /// from its own facet by less than `angle`; a position becomes one vertex for each distinct normal. Facets without area
-/// keep their corners, with +z as normal.
+/// keep their corners, with +z as normal. Positions that no triangle uses are dropped. Takes time quadratic in the
+/// triangles around a position.
 /// @param angle  radians, 0 to pi; 0 makes every facet flat
-/// @throws invalid_input if an index has no position, or for an angle out of range
+/// @throws invalid_input if an index has no position, for normals that do not match the positions, or for an angle out
+/// of range
 inline mesh with_creases(const mesh& m, float angle = 0.7f) {
     validate(m);
     detail::require_range("angle", angle, 0, static_cast<float>(numeric::pi), "0 to pi radians");

@@ -181,7 +181,7 @@ class obj_reader {
         const auto count = static_cast<std::int64_t>(given);
         const bool whole = status == std::errc{} && end == digits.data() + digits.size();
         if (!whole || value == 0 || value > count || value < -count) {
-            if (whole && count == 0) fail(std::string(what) + " index " + quoted(digits) + " comes before any " + what);
+            if (count == 0) fail(std::string(what) + " index " + quoted(digits) + " comes before any " + what);
             fail(std::string(what) + " index " + quoted(digits) + " is none of 1 to " + to_text(count) + " or -1 to -" +
                  to_text(count) + ", the lines given so far");
         }
@@ -282,7 +282,7 @@ class obj_reader {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The polygons of a Wavefront OBJ text as one mesh, in time linear in its length.
+/// The polygons of a Wavefront OBJ text as one mesh, in time nearly linear in its length.
 ///
 /// Reads `v` (numbers after the third, weights or colours, are ignored), `vn` and `f`; all other lines are skipped.
 /// Polygons become triangles by `triangulate`, in the order of the faces. A position is kept once for each normal it is
@@ -295,8 +295,8 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input if `origin` is out of range
 /// @throws io_error with the name and line number for: a coordinate that is missing, no number, or out of range; an
 ///         index that is 0, no integer, or refers to a line not yet given; a face with fewer than 3 corners, or a
-///         concave one with more than 4096; a text without a face, such as the path of a file, which `load_obj` takes;
-///         more than 2 GiB of text
+///         concave one with more than 4096; and with the name alone for a text without a face, such as the path of a
+///         file, which `load_obj` takes, or one of more than 2 GiB
 inline mesh read_obj(std::string_view text, std::string_view name = "OBJ text",
                      const glm::dvec3& origin = glm::dvec3(0)) {
     return detail::obj_reader(text, name, origin).read();

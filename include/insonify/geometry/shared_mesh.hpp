@@ -71,7 +71,7 @@ INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m) {
         order_along_curve(facts.shape, facts.box);
     if (facts.shape.normals.empty()) facts.shape.normals = smooth_normals(facts.shape);
     facts.kind = kind_of(facts.shape);
-    // Where else renderers would have to find out what lies below a position.
+    // Without a grid or a box-shaped outline, renderers would have to search for the surface below a position.
     if (facts.kind == surface_kind::heightfield && !facts.grid && !fills_box(facts.shape, facts.box))
         facts.kind = surface_kind::open;
     if (facts.kind != surface_kind::heightfield) facts.grid.reset();

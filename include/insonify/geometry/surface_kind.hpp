@@ -28,7 +28,7 @@ enum class surface_kind {
 
 inline namespace INSONIFY_ONCE {
 
-/// Classifies a mesh, in linear time but for sorting positions.
+/// Classifies a mesh, in linear time.
 /// @param m  its indices have positions
 INSONIFY_FUNCTION surface_kind kind_of(const mesh& m);
 

@@ -29,7 +29,7 @@ struct topology {
     std::size_t degenerate = 0;      ///< triangles with two coincident corners, not counted elsewhere
     std::size_t boundary_edges = 0;  ///< edges with one triangle
     std::size_t tangled_edges = 0;   ///< edges with more than two triangles, or two that traverse it the same way
-    std::size_t inward_pieces = 0;   ///< connected components that face inwards, such as cavities, or enclose nothing
+    std::size_t inward_pieces = 0;   ///< pieces, connected by vertices, that face inwards or enclose nothing
 
     /// Every edge joins two triangles of the same orientation.
     bool closed() const { return triangles > 0 && boundary_edges == 0 && tangled_edges == 0; }
@@ -63,7 +63,7 @@ inline std::vector<std::uint32_t> weld(const std::vector<glm::vec3>& positions) 
     return first;
 }
 
-/// Linear in the triangles.
+/// Takes time linear in the positions and, almost, in the triangles.
 /// @throws invalid_input if an index has no position
 inline topology inspect(const mesh& m) {
     validate(m);

@@ -14,7 +14,7 @@ enum class cull_mode { none, back, front };
 
 /// The depth test: which of two surfaces a pixel shows.
 enum class keep_depth {
-    smaller,  ///< z = 0 at the camera, growing away from it
+    smaller,  ///< z = 0 at the near plane, growing away from the camera
     larger,   ///< reversed z, or heights seen from above
 };
 

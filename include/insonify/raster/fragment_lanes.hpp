@@ -52,8 +52,8 @@ class fragment_lanes {
     ints front;                                         ///< mask: seen from the counter-clockwise side
     floats weights[3];                                  ///< barycentric, perspective-correct
 
-    /// Sets `into` to float k of the varyings, interpolated perspective-correctly. Reversing the triangle's winding
-    /// changes no bit.
+    /// Sets `into` to float k of the varyings, interpolated perspective-correctly. Exchanging the triangle's second
+    /// and third vertices changes no bit.
     INSONIFY_INLINE void interpolate(floats& into, int k) const {
         into = weights[0] * values_[0][k] + (weights[1] * values_[1][k] + weights[2] * values_[2][k]);
     }

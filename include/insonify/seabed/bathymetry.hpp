@@ -104,7 +104,7 @@ struct grid_soundings {
 
 inline grid_soundings read_soundings(survey_reader& in, double spacing, float scale) {
     grid_soundings found;
-    for (std::string_view first; !(first = in.word()).empty(); in.skip_line()) {
+    for (std::string_view first; !(first = in.first_word()).empty(); in.skip_line()) {
         const std::size_t digit = first.find_first_not_of("+-.");  // after a sign and a point at most
         const bool is_number = digit <= 2 && first[digit] >= '0' && first[digit] <= '9';
         if (!is_number) {
@@ -157,6 +157,7 @@ inline namespace INSONIFY_FLAGS {
 /// @param scale  metres up per unit of the file; -1 for depths in metres
 /// @param name   of the text, for errors
 /// @throws io_error for a text that isn't such a grid, saying which line and why
+/// @throws invalid_input for a scale that is not finite
 inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::string_view name = "grid") {
     detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");
     detail::survey_reader in(text, name);
@@ -181,13 +182,14 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
 /// it, or NaN if there is none. x and y are metres: project longitudes and latitudes first, for example to UTM. Lines
 /// end with LF, CR LF or CR. Lines that do not begin with a number or have an empty cell for z are skipped, and so is
 /// the rest of a line after z.
-/// @param spacing  metres between vertices, > 0; vertices are multiples of it
+/// @param spacing  metres between vertices, > 0 and < 10^6; vertices are multiples of it
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors
 /// @throws io_error for a text without soundings or with none but missing data, an Esri grid, a line of fewer than
 ///         three numbers or with decimal commas, soundings that span less than a spacing or crowd at a few vertices,
-///         as those in degrees do, or soundings so far apart that there are more than 1024 vertices for each, or more
-///         than 2^26
+///         as those in degrees do, positions beyond 1e9 metres or 2^53 spacings, or soundings so far apart that there
+///         are more than 1024 vertices for each, or more than 2^26
+/// @throws invalid_input for a spacing out of its range or a scale that is not finite
 inline heightfield parse_xyz(std::string_view text, double spacing, float scale = 1, std::string_view name = "xyz") {
     detail::require_positive_metres("spacing", spacing);
     detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");

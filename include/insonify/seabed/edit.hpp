@@ -31,7 +31,7 @@ struct flatten {
 struct smooth {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 1;      ///< metres, > 0 and at most 2^17 lengths: with its edge
-    float length = 0.25f;  ///< metres, > 0; rounded to eight bits, so that its multiples are exact
+    float length = 0.25f;  ///< metres, from 0.001; rounded to eight bits, so that its multiples are exact
 };
 
 /// A straight slope between two points, like a slipway.
@@ -46,15 +46,16 @@ struct stamp {
     std::vector<glm::dvec2> path;  ///< at least one point
     float radius = 0.3f;           ///< metres, > 0: half the width of a furrow, with its edges
     float height = -0.1f;          ///< metres, in the middle; negative to dig
-    float every = 0;               ///< metres along the path from mark to mark; 0: a continuous furrow
+    float every = 0;               ///< metres along the path from mark to mark, from 0.001; 0: a continuous furrow
 };
 
-/// Sediment heaped up to a level, to half bury a target. Higher ground stays, and so does ground 100 m below the level.
+/// Sediment heaped up to a level, to half bury a target. Higher ground stays. The slopes end 100 m below the
+/// level, radius + 100 / slope from the centre along x and y: over deeper ground the heap ends in a cliff.
 struct heap {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 0.5f;  ///< metres, >= 0: of its level top
     float level = 0.2f;   ///< metres above the datum
-    float slope = 0.6f;   ///< > 0: of its sides; sand lies at 0.6, mud flatter
+    float slope = 0.6f;   ///< from 0.001: of its sides; sand lies at 0.6, mud flatter
 };
 
 /// One change of a seabed.

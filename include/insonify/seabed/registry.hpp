@@ -52,7 +52,7 @@ inline namespace INSONIFY_ABI {
 
 /// Statistics of an intensity. By default Rayleigh amplitudes, exponential intensities. The scintillation index,
 /// variance / mean^2 of the intensity, is
-/// (1 + 1 / texture) (1 + (1 + 2 steady) / (looks (1 + steady)^2)) - 1.
+/// (1 + 1 / texture) (1 + (1 + 2 steady) / (looks (1 + steady)^2)) - 1, without the first factor where texture is 0.
 struct speckle_law {
     int looks = 1;      ///< independent intensities that are averaged: 1 to 64
     float texture = 0;  ///< shape of the K-distribution: rock 0.5 to 2, sand 8 to 20; 0: no texture

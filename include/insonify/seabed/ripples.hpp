@@ -24,8 +24,8 @@ struct ripples {
     float spread = 0.09f;                  ///< radians, in [0, 0.5]: of the direction
     float bandwidth = 0.09f;               ///< in [0, 0.25]: of the wave number, relative
     float sharpness = 0.25f;               ///< in [0, 0.9]: of the crests, 0 for a sinusoid
-    ripple_system second{.steepness = 0};  ///< other waves' ripples, added; none if they have no height
-    roughness surface{.rms = 0.0025f, .longest = 0.4f};  ///< fine relief on the ripples, beyond their height
+    ripple_system second{.steepness = 0};  ///< a second system that crosses the first; none if its steepness is 0
+    roughness surface{.rms = 0.0025f, .longest = 0.4f};  ///< added to the ripples
     std::uint64_t seed = 1;
     type kind = type::ripples;
 

@@ -21,13 +21,14 @@ namespace seabed {
 /// Blocks come in sizes that halve from one class to the next. Above a size there are N of them per square metre,
 /// N ~ size^-sizes; height is proportional to size.
 struct rock {
-    float relief = 0.5f;     ///< metres, >= 0: about the height of outcrops with their blocks
-    float outcrop = 6.0f;    ///< metres, from 0.001: typical distance between outcrops
-    float block = 1.4f;      ///< metres, from 0.001: spacing of the largest blocks, which are 0.6 to 1.8 of it wide
+    float relief = 0.5f;   ///< metres, >= 0: about the height of outcrops with their blocks
+    float outcrop = 6.0f;  ///< metres, from 0.001: typical distance between outcrops
+    float block = 1.4f;  ///< metres, from 0.001: spacing of the largest blocks, whose widths are 0.6 to 1.8 times that
     float smallest = 0.3f;   ///< metres, in [0.001, block]: spacing of the smallest
     float sizes = 2.2f;      ///< in [0, 4]: exponent of the numbers of blocks; at 2 each class covers the same area
     float fracture = 0.5f;   ///< in [0, 1]: fraction of lattice cells that hold a block of the most frequent size
-    float steepness = 2.5f;  ///< > 0: slope of the walls of blocks, 1 is 45 degrees
+    float steepness = 2.5f;  ///< > 0: slope of the walls of blocks, 1 is 45 degrees, where none is buried: burial
+                             ///< scales it by 0.3 to 0.8
     roughness surface{.rms = 0.012f, .longest = 0.8f, .shortest = 0.08f};
     std::uint64_t seed = 1;
     type kind = type::rock;

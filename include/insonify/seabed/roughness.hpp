@@ -14,9 +14,9 @@ namespace seabed {
 /// Measured exponents of sea floors are 2.4 to 3.9, 3.25 where nothing is known: APL-UW High-Frequency Ocean
 /// Environmental Acoustic Models Handbook. TR 9407, 1994 (eqs. 7-8).
 struct roughness {
-    float rms = 0.01f;       ///< metres, >= 0; 0 costs nothing
-    float longest = 1.0f;    ///< metres, > 0: cell of the coarsest octave
-    float shortest = 0.04f;  ///< metres, in (0, longest]: no octave has smaller cells
+    float rms = 0.01f;       ///< metres, 0 to below 10^6; 0 costs nothing
+    float longest = 1.0f;    ///< metres, below 10^6: cell of the coarsest octave, half its wavelength
+    float shortest = 0.04f;  ///< metres, 0.0001 to longest: no octave has smaller cells
     float exponent = 3.25f;  ///< in [2, 4]
 
     friend bool operator==(const roughness&, const roughness&) = default;

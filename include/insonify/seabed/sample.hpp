@@ -65,6 +65,9 @@ template <model Model, executor_argument Executor = serial_executor>
 heightfield sample(const Model& source, const grid& where, Executor&& ex = serial_executor{}) {
     constexpr insonify::detail::uninitialized uninitialized;
     const auto memory = insonify::detail::memory_of(ex);
+    detail::require(where.width >= 2, "grid.width", where.width, "at least 2");
+    detail::require(where.height >= 2, "grid.height", where.height, "at least 2");
+    detail::require_positive_metres("grid.spacing", where.spacing);
     heightfield result{.heights = image<float>(where.width, where.height, uninitialized, memory),
                        .origin = where.origin + where.spacing * glm::dvec2(where.first),
                        .spacing = where.spacing};

@@ -66,7 +66,7 @@ any bottom_of(Sediment s, std::uint64_t seed = 1) {
                 .kind = kind};
 }
 
-/// Ripples in a sediment.
+/// Ripples labelled as a sediment, whose brightness and speckle they have; relief and roughness are those of `shape`.
 inline ripples rippled(sediment s, ripples shape = {}) {
     shape.kind = type_of(s);
     return shape;

@@ -11,8 +11,8 @@ namespace seabed {
 
 /// Furrows of trawl doors, 0.05 to 0.3 m deep and 0.2 to 2 m wide.
 struct trawl_marks {
-    /// Furrows per metre across them, of all directions together, in [0, 1 / (4 width)]; 0 for none. A line in any
-    /// direction meets 2 / pi of them on average.
+    /// Furrows crossed per metre perpendicular to them, summed over all directions, in [0, 1 / (4 width)]; 0 for none.
+    /// A line in an arbitrary direction crosses 2 / pi as many on average.
     float density = 0;
     float depth = 0.06f;  ///< metres, >= 0
     float width = 0.5f;   ///< metres, from 0.001: between the tops of the berms

@@ -28,10 +28,10 @@ inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a value out of its range
 inline void validate(const map_layout& m) {
-    insonify::detail::require(m.texels_per_pixel > 0 && numeric::is_finite(m.texels_per_pixel), "texels_per_pixel",
-                              m.texels_per_pixel, "above 0");
-    insonify::detail::require(m.largest >= 1 && m.largest <= 32768, "largest", m.largest, "1 to 32768");
-    insonify::detail::require(m.radius >= 0 && m.radius <= 8, "radius", m.radius, "0 to 8 texels");
+    insonify::detail::require(m.texels_per_pixel > 0 && numeric::is_finite(m.texels_per_pixel),
+                              "map_layout.texels_per_pixel", m.texels_per_pixel, "above 0");
+    insonify::detail::require(m.largest >= 1 && m.largest <= 32768, "map_layout.largest", m.largest, "1 to 32768");
+    insonify::detail::require(m.radius >= 0 && m.radius <= 8, "map_layout.radius", m.radius, "0 to 8 texels");
 }
 
 /// The height maps of casters under one parallel light.

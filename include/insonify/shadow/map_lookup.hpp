@@ -93,7 +93,7 @@ inline namespace INSONIFY_FLAGS {
 
 /// Share of the light that reaches a point, averaged over (2 radius + 1)^2 texels; surfaces that face away count as
 /// level.
-/// @param radius  texels, 0 to 8; 0 is the nearest texel alone
+/// @param radius  texels; 0 is the nearest texel alone. @pre 0 to 8
 inline float lit(const height_map& map, const receiver_plane& r, int radius) {
     const detail::map_receiver at(map, r);
     if (at.is_beyond(radius)) return 1;

@@ -100,9 +100,9 @@ class penumbra_occlusion {
 
 }  // namespace INSONIFY_FLAGS
 
-/// Soft edges: exact shadows from several points of a disc light. Each point costs as much as `exact`. The caster is
-/// the one that blocks the light's centre. The disc of a point light faces the origin of the frame in which the light
-/// is described.
+/// Soft edges: exact shadows from several points of a disc light. Each takes the time, and until the picture is
+/// finished the memory, of `exact`. The caster is the one that blocks the light's centre. The disc of a point light
+/// faces the origin of the frame in which the light is described.
 struct penumbra {
     float diameter = static_cast<float>(numeric::to_radians(0.5));  ///< seen from the ground, 0 to 1 radian
     int samples = 16;  ///< points on the disc, the first at its centre; 1 to 1024

@@ -156,7 +156,7 @@ inline constexpr float unknown = -1;               ///< in results::lit, between
 enum class decision : std::uint8_t { lit, dark, undecided };
 
 /// A collective occlusion that decides whole triangles: `structure.decide_triangles(caster, eye, executor)` returns a
-/// result for each triangle of a caster as seen by the camera, or an empty vector.
+/// result for each triangle of a caster as seen by the camera, or an empty array.
 template <class S>
 concept triangle_occlusion = collective_occlusion<S> &&
     requires(const S& structure, std::uint32_t caster, const glm::dvec3& eye, serial_executor& ex) {

@@ -23,7 +23,7 @@ concept backscatter_law = requires(const L& law, float s) {
     { law(s) } -> std::convertible_to<float>;
 };
 
-/// Optical Lambert, s, as in the game engine of the paper.
+/// Lambert's law of optics, s.
 struct lambert {
     INSONIFY_MEMBER float operator()(float s) const { return s; }
     template <class Lanes>

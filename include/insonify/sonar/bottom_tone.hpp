@@ -116,10 +116,10 @@ inline void require_within_reach(const ping& p, const std::string& name) {
 template <across_track Axis, class PingOfRow>
 void apply_tone(frame<labels>& r, const PingOfRow& ping_of_row, const side_scan_rig<Axis>& rig, const bottom_tone& tone,
                 executor_ref ex) {
+    require(r.rows.port_columns == 0, "rows.port_columns", r.rows.port_columns, "0, as of a recording of one side");
+    require(r.rows.side == rig.side, "rows.side", static_cast<int>(r.rows.side), "the side of the rig");
     require_equal("rig.bins", rig.bins, r.image.width(), "the recording's width");
-    const bool are_labelled =
-        r.labels.seabed.width() == r.image.width() && r.labels.seabed.height() == r.image.height();
-    require(are_labelled, "labels.seabed.size()", r.labels.seabed.size(), "that of the image");
+    require_sizes(r.labels, r.image.width(), r.image.height(), "that of the image");
     const tone_sampler level(tone);
     if (tone.is_none()) return;
     const double first = static_cast<double>(rig.first_range), bin = rig.bin();
@@ -160,7 +160,7 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 ///
 /// @param r  a result of `render` with this rig, before noise and speckle
 /// @throws invalid_input for a rig or a parameter out of its range, a picture from above, or a recording of another
-///         width, without labels or with ping numbers beyond 2^31
+///         side or width, of both sides, without labels or with ping numbers beyond 2^31
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
@@ -180,12 +180,13 @@ frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const b
 ///
 /// @param r      a result of `record` with this track and rig, before noise and speckle
 /// @param track  the pings of its rows, in the order in which they were recorded
-/// @throws invalid_input for a rig, a ping or a parameter out of its range, or a recording of another width, without
-///         labels or of another number of pings
+/// @throws invalid_input for a rig, a ping or a parameter out of its range, a picture from above, or a recording of
+///         another side, width or number of pings, of both sides, or without labels
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, std::span<const ping> track, const side_scan_rig<Axis>& rig,
                         const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
+    detail::require(r.rows.step != 0, "rows.step", r.rows.step, "1 or -1, as of a recording");
     detail::require_equal("track.size()", track.size(), static_cast<std::size_t>(r.image.height()),
                           "the number of the recording's rows");
     for (std::size_t i = 0; i < track.size(); ++i)

@@ -1,8 +1,8 @@
 // Presets of sonar classes: resolution, range and display.
 //
 // Values are typical of a class, rounded from data sheets of the instruments that are named; a generator varies them:
-// beams are between the -3 dB points of one way, resolutions are c / (2 bandwidth), ranges are usable ones over sand.
-// Absorption is that of salt water (M. A. Ainslie, J. G. McColm. A Simplified Formula for Viscous and Chemical
+// beamwidths are one-way, between the -3 dB points, resolutions are c / (2 bandwidth), ranges are usable ones over
+// sand. Absorption is that of salt water (M. A. Ainslie, J. G. McColm. A Simplified Formula for Viscous and Chemical
 // Absorption in Sea Water. JASA 103, 1998, at 10 degrees, 20 m). A towed sonar is flown at 10 to 20 % of its range
 // above the bottom (NOAA. Hydrographic Surveys Field Procedures Manual, 2014, side scan sonar: 8 to 20 %).
 #pragma once
@@ -41,12 +41,14 @@ struct instrument {
         return is_synthetic_aperture() ? static_cast<double>(along_track_resolution)
                                        : slant_range * static_cast<double>(beamwidth);
     }
-    /// Correlation length (1 / e) of speckle intensities across the track, metres: 0.516 of the resolution for a pulse
-    /// with a flat band, whose correlation is the square of sin(u) / u.
-    INSONIFY_MEMBER double grain_across() const { return 0.516 * static_cast<double>(range_resolution); }
+    /// Correlation length (1 / e) of speckle intensities, in resolutions, for a pulse or an aperture with a flat band,
+    /// whose correlation is the square of sin(u) / u.
+    static constexpr double flat_band_grain = 0.5234;
+    /// Correlation length of speckle intensities across the track, metres.
+    INSONIFY_MEMBER double grain_across() const { return flat_band_grain * static_cast<double>(range_resolution); }
     /// The same along the track: see horizontal_beam::speckle_length.
     INSONIFY_MEMBER double grain_along(double slant_range) const {
-        return is_synthetic_aperture() ? 0.516 * static_cast<double>(along_track_resolution)
+        return is_synthetic_aperture() ? flat_band_grain * static_cast<double>(along_track_resolution)
                                        : horizontal().speckle_length(slant_range, static_cast<double>(wavelength()));
     }
 };

@@ -29,7 +29,7 @@ struct target_label {
 /// One value per pixel of the picture in each image, and a list of the targets.
 struct labels {
     static constexpr std::uint16_t no_instance = 0;     ///< seabed, or neither seabed nor target
-    static constexpr std::uint16_t is_lit = 0;          ///< at least half of the light arrives
+    static constexpr std::uint16_t is_lit = 0;          ///< at least half of the light, or that of its centre, arrives
     static constexpr std::uint16_t by_seabed = 0xFFFF;  ///< in the shadow of the seabed
     static constexpr std::uint8_t no_seabed = 0xFF;     ///< a target, or neither
 
@@ -68,6 +68,16 @@ inline void require_numbered_targets(const scene& s) {
     require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
 }
 
+/// @throws invalid_input for an image of another size
+inline void require_sizes(const labels& l, int width, int height, std::string_view expected) {
+    const auto check = [&](const char* name, const auto& of) {
+        require(of.width() == width && of.height() == height, name, of.size(), expected);
+    };
+    check("labels.instance.size()", l.instance);
+    check("labels.shadow.size()", l.shadow);
+    check("labels.seabed.size()", l.seabed);
+}
+
 /// @throws invalid_input for an instance that has no target
 inline void require_listed(const labels& l, const char* name, std::uint16_t instance) {
     require(instance <= l.targets.size(), name, instance, "at most labels.targets.size()");
@@ -92,6 +102,7 @@ INSONIFY_FUNCTION image<std::uint8_t> target_mask(const labels& l, std::uint16_t
 
 /// 255 where the seabed is in a target's shadow, 0 elsewhere, on the target itself too.
 /// @param instance  number of the target, from 1; 0 gives the seabed that is lit
+/// @throws invalid_input for images of different sizes
 INSONIFY_FUNCTION image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance);
 
 /// The class of every pixel that shows a target.
@@ -108,9 +119,13 @@ INSONIFY_FUNCTION image<std::uint8_t> target_mask(const labels& l, std::uint16_t
 }
 
 INSONIFY_FUNCTION image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance) {
+    detail::require_sizes(l, l.shadow.width(), l.shadow.height(), "that of labels.shadow");
     image<std::uint8_t> mask(l.shadow.width(), l.shadow.height());
-    for (std::size_t i = 0; i < mask.size(); ++i)
-        mask.pixels()[i] = l.shadow.pixels()[i] == instance && l.instance.pixels()[i] == labels::no_instance ? 255 : 0;
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+        const bool is_bottom = l.seabed.pixels()[i] != labels::no_seabed || instance != labels::is_lit;
+        const bool shows_target = l.instance.pixels()[i] != labels::no_instance;
+        mask.pixels()[i] = l.shadow.pixels()[i] == instance && is_bottom && !shows_target ? 255 : 0;
+    }
     return mask;
 }
 
@@ -134,8 +149,7 @@ INSONIFY_FUNCTION void measure_targets(labels& l) {
         if (area++ == 0) box = {x, y, x, y};
         box = {(std::min)(box.x0, x), (std::min)(box.y0, y), (std::max)(box.x1, x + 1), (std::max)(box.y1, y + 1)};
     };
-    detail::require_equal("labels.shadow.width()", l.shadow.width(), l.instance.width(), "that of labels.instance");
-    detail::require_equal("labels.shadow.height()", l.shadow.height(), l.instance.height(), "that of labels.instance");
+    detail::require_sizes(l, l.instance.width(), l.instance.height(), "that of labels.instance");
     for (target_label& t : l.targets) t.area = t.shadow_area = 0, t.box = t.shadow_box = {};
     for (int y = 0; y < l.instance.height(); ++y) {
         const auto instances = l.instance.row(y), shadows = l.shadow.row(y);

@@ -2,8 +2,8 @@
 //
 // `render_options` are those of overhead pictures, `record_options` those of side-scan pictures. They share a
 // backscatter law, the spacing `cell` of the seabed's vertices, `with(law)` and `without_labels()`; each adds what its
-// sonar alone has: shadow policy and rasterizer, or the parts of the sonar equation. They have no common base, whose
-// members designated initializers could not name. Code for any rig starts from the rig:
+// sonar alone has: shadow policy and rasterizer, or the parts of the sonar equation. They share no base class, because
+// designated initializers cannot name members of a base. Code for any rig starts from the rig:
 //
 //     in::render(scene, rig, in::options_for(rig).with(law).without_labels())
 #pragma once

@@ -67,6 +67,7 @@ INSONIFY_FUNCTION void validate(const scene& s);
 INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s);
 
 /// The same pose, lowered or raised so that one vertex touches the seabed and none is below it. `burial` then sinks it.
+/// Vertices over gaps, or beyond 1e9 m, do not count; without any other the pose is returned as it is.
 /// @param shape  a mesh, a shared mesh, or a view of one; of at least one position
 /// @throws invalid_input for a shape without positions, or a pose out of range
 INSONIFY_FUNCTION pose rest_on(const insonify::seabed::any& seabed, const mesh_view& shape, pose placement);

@@ -46,7 +46,7 @@ struct seabed_speckle {
     /// field: beside a steady echo it is up to 1.4 times as long; a texture has its own length.
     float along_track = 1;
     float across_track = 1;    ///< the same in bins
-    float texture_length = 3;  ///< correlation length of textures in pings and bins, 1 to 1024
+    float texture_length = 3;  ///< pings and bins between nodes of the texture's lattice, 1 to 1024; 1 / e at 0.4 of it
     std::uint64_t seed = 1;
 };
 
@@ -163,8 +163,7 @@ template <executor_argument E = serial_executor>
 frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex = {}) {
     const int port = r.rows.port_columns;
     detail::require_range("rows.port_columns", port, 0, r.image.width(), "0 to the width of the recording");
-    detail::require_equal("labels.seabed.width()", r.labels.seabed.width(), r.image.width(), "that of the image");
-    detail::require_equal("labels.seabed.height()", r.labels.seabed.height(), r.image.height(), "that of the image");
+    detail::require_sizes(r.labels, r.image.width(), r.image.height(), "that of the image");
     const seabed_speckle completed = with_legend(s, r.labels.legend);
     if (port == 0) {
         r.image = with_speckle(r.image.view(), r.labels.seabed.view(), completed, r.rows, ex);

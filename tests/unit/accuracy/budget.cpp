@@ -218,6 +218,10 @@ TEST_CASE("Settings are values: they can be read, changed and handed to render")
     scene.seabed = t.bottom;
     CHECK(in::render(scene, t.rig, options).stats.seabed_columns >= 37);
 
+    // The finest grid is tried, whatever its cells, and never more cells than a picture can have.
+    const acc::budget tight{.shadow_edge = 1e-6, .silhouette = 1, .height = 1e-6, .intensity = 1e-6};
+    const auto finest = acc::settings_for(tight, t.bottom, t.rig, {.chips = 1, .pixels = 48, .finest = 3});
+    CHECK(finest.cell == Approx(in::overhead_geometry(t.rig).ground_sampling() / 3));
     // Without a seabed there is nothing to probe.
     const acc::budget tolerated{.shadow_edge = 0.5, .silhouette = 0.001};
     const auto bare = acc::settings_for(tolerated, sb::none{}, t.rig);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -99,6 +100,27 @@ TEST_CASE("Elements of growing arrays are destroyed once") {
         CHECK(alive == 200);
         others.clear();
         CHECK(alive == 100);
+    }
+    CHECK(alive == 0);
+}
+
+TEST_CASE("A copy that fails leaves no element behind") {
+    static int alive, copies;
+    struct fragile {
+        fragile() { ++alive; }
+        fragile(const fragile&) {
+            if (++copies == 3) throw std::runtime_error("copied thrice");
+            ++alive;
+        }
+        fragile(fragile&&) noexcept { ++alive; }
+        ~fragile() { --alive; }
+    };
+    alive = copies = 0;
+    {
+        in::detail::dynamic_array<fragile> source;
+        source.resize(5);
+        CHECK_THROWS_AS(in::detail::dynamic_array<fragile>(source), std::runtime_error);
+        CHECK(alive == 5);
     }
     CHECK(alive == 0);
 }

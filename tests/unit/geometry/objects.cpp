@@ -279,6 +279,11 @@ TEST_CASE("A crate is solid, with its stated size, and loses boards with damage"
                                                          .is_open = is_open,
                                                          .damage = damage});
                     check_solid(m);
+                    // Of a crate that has lost all boards, the floor and the posts are left.
+                    const auto left = static_cast<std::size_t>(12 * (boards + 4)), all = left * 6;
+                    if (damage == 1) CHECK(m.triangles.size() == left);
+                    if (damage > 0 && damage < 1 && boards == 20)
+                        CHECK((m.triangles.size() > left && m.triangles.size() < all));
                     if (damage == 0) {
                         check_stands(m);
                         check_size(m, static_cast<double>(size) * glm::dvec3(1.2, 0.8, 0.8));

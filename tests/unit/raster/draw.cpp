@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "../../catch.hpp"
+#include "../../larger.hpp"
 #include "pixel_space.hpp"
 
 namespace in = insonify;
@@ -110,9 +111,8 @@ TEMPLATE_TEST_CASE_SIG("Varyings equal the intersections of rays with the plane"
         [&](const in::fragment<glm::vec3>& f) {
             const glm::dvec3 eye(0, 0, 3), ray((f.x + 0.5) / 64 - 1, 1 - (f.y + 0.5) / 64, -1);
             const glm::dvec3 hit = eye + ray * (dot(a - eye, normal) / dot(ray, normal));
-            for (int i = 0; i < 3; ++i)
-                worst = (std::max)(worst, std::abs(hit[i] - static_cast<double>(f.varyings[i])));
-            worst_depth = (std::max)(worst_depth, std::abs(static_cast<double>(f.depth) * (3 - hit.z) / 0.01 - 1));
+            for (int i = 0; i < 3; ++i) worst = larger(worst, std::abs(hit[i] - static_cast<double>(f.varyings[i])));
+            worst_depth = larger(worst_depth, std::abs(static_cast<double>(f.depth) * (3 - hit.z) / 0.01 - 1));
             CHECK(f.weights.x + f.weights.y + f.weights.z == Approx(1));
         },
         in::framebuffer<void>{depth},

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "../../catch.hpp"
+#include "../../larger.hpp"
 #include "pixel_space.hpp"
 
 namespace in = insonify;
@@ -117,7 +118,7 @@ TEST_CASE(
         ++shaded;
         CHECK(lanes.visible.pixels()[i] == -1);
         CHECK(lanes.seen_depth.pixels()[i] == lanes.depth.pixels()[i]);
-        worst = (std::max)(worst, std::abs(static_cast<double>(lanes.value.pixels()[i] - one.value.pixels()[i])));
+        worst = larger(worst, std::abs(static_cast<double>(lanes.value.pixels()[i] - one.value.pixels()[i])));
     }
     CHECK(shaded > 8000);
     CHECK(worst < 1e-3);
@@ -150,7 +151,7 @@ double worst_of_lanes(const glm::vec3 (&corners)[3], float scale, unsigned fewes
                 if (in::detail::lane(f.visible, k) == 0) continue;
                 const double off = std::abs(static_cast<double>(in::detail::lane(value, k)) -
                                             static_cast<double>(weights(f.x + k, f.y)[i]));
-                worst = (std::max)(worst, off >= 0 ? off : std::numeric_limits<double>::infinity());
+                worst = larger(worst, off);
             }
         }
     };

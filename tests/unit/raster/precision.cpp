@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "../../catch.hpp"
+#include "../../larger.hpp"
 #include "pixel_space.hpp"
 
 namespace in = insonify;
@@ -53,7 +54,7 @@ struct errors {
                      wrong_depths += f.depth != static_cast<float>(truth.depth(f.x, f.y, z));
                      const wide_float off =
                          static_cast<wide_float>(f.varyings) - truth.varying(f.x, f.y, t.varying, inverse_w);
-                     varying = (std::max)(varying, std::abs(static_cast<double>(off)) / last_place);
+                     varying = larger(varying, std::abs(static_cast<double>(off)) / last_place);
                  },
                  in::framebuffer<void>{depth}, {.keep = keep, .load = in::depth_load::clear, .subpixel_bits = bits});
     }
@@ -184,8 +185,8 @@ TEST_CASE("Quick depth is off by at most 2^-22 of the largest depth and 2^-7 of 
             if (exact.pixels()[i] > 1) continue;  // not covered
             const double off =
                 std::abs(static_cast<double>(exact.pixels()[i]) - static_cast<double>(quick.pixels()[i]));
-            worst = (std::max)(worst, off * 0x1p24);
-            worst_of_range = (std::max)(worst_of_range, (off - 0x1p-22 * largest) / depths);
+            worst = larger(worst, off * 0x1p24);
+            worst_of_range = larger(worst_of_range, (off - 0x1p-22 * largest) / depths);
             is_bounded = is_bounded && off <= 0x1p-22 * largest + depths * (std::min)(0x1p-7, 0x1p-19 * box / twice);
         }
     }

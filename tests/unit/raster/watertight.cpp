@@ -185,27 +185,39 @@ TEST_CASE("Large triangles across several planes of the frustum share their edge
     // NVlabs/nvdiffrast 225: leaks where neighbours are clipped by several planes.
     in::random_sequence random(7);
     hit_counter hits;
+    int seen = 0;
     for (int n = 0; n < 500; ++n) {
-        // Two triangles that together pass the near and the far plane, the camera and all four sides.
+        // Two triangles that together pass the near and the far plane, the camera and all four sides. Their shared edge
+        // passes through the picture.
         const double tilt = random.uniform(0.2, 1), w = random.uniform(0.5, 2);
         const auto place = [=](const in::vertex& v) {
             const double depth = tilt * static_cast<double>(v.position.y) + w;
             return glm::vec4(v.position.x, v.position.y + 0.3f * v.position.x, (depth - 0.1) * 1.05, depth);
         };
-        const auto far_off = [&] { return static_cast<float>(random.uniform(50, 5000)); };
-        const in::mesh m{{{-far_off(), -far_off(), 0},
-                          {far_off(), -far_off(), 0},
-                          {-far_off(), far_off(), 0},
-                          {far_off(), far_off(), 0}},
-                         {},
-                         {{0, 1, 3}, {0, 3, 2}}};
-        in::mesh outline = m;
-        hits.draw(m, place, any_options(random));
+        const glm::dvec2 on_edge{random.uniform(-0.5, 0.5), random.uniform(-0.4, 0.4)};
+        const double turn = random.uniform(0, 2 * in::numeric::pi);
+        const glm::dvec2 along(std::cos(turn), std::sin(turn)), across(-along.y, along.x);
+        const auto corner = [&](const glm::dvec2& to) {
+            return glm::vec3(glm::vec2(on_edge + random.uniform(50, 5000) * to), 0);
+        };
+        const in::mesh m{{corner(-along), corner(-across), corner(across), corner(along)}, {}, {{0, 1, 3}, {0, 3, 2}}};
+        in::draw_options<> options = any_options(random);
+        options.subpixel_bits = (std::max)(options.subpixel_bits, 8);
+        hits.draw(m, place, options);
         for (int y = 0; y < screen; ++y)
-            for (int x = 0; x < screen; ++x) CHECK(hits.front(x, y) + hits.back(x, y) <= 1);
-        // Drawn at once or one by one, the same pixels are hit.
+            for (int x = 0; x < screen; ++x) {
+                // Where the plane is met: x / depth and (y + 0.3 x) / depth are the pixel's coordinates.
+                const double right = (x + 0.5) / screen * 2 - 1, up = 1 - (y + 0.5) / screen * 2;
+                const double depth = w / (1 - tilt * (up - 0.3 * right));
+                const int count = hits.front(x, y) + hits.back(x, y);
+                CHECK(count <= 1);
+                if (!(depth > 0.11 && depth < 2.0)) continue;
+                ++seen;
+                CHECK(count == 1);
+            }
         in::image<float> depth(screen, screen);
         in::draw(m, place, in::depth_target{depth}, {.load = in::depth_load::clear});
         CHECK(in::draw(m, place, in::depth_target{depth}).clipped == 2);
     }
+    CHECK(seen > 10000);
 }

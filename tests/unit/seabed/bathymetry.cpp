@@ -83,9 +83,9 @@ TEST_CASE("Soundings in any order are gridded: averaged where there are several,
 
 TEST_CASE("Soundings are read line by line, with any line ending") {
     CHECK_THROWS_WITH(sb::parse_xyz("0 0 1\n1 0\n2 0 3\n", 1, 1, "bottom.xyz"),
-                      ContainsSubstring("bottom.xyz:2: the line ends before a z"));
+                      ContainsSubstring("bottom.xyz:2: a z is missing"));
     CHECK_THROWS_WITH(sb::parse_xyz("0 0 1\r1\r2 0 3\r", 1, 1, "bottom.xyz"),
-                      ContainsSubstring("bottom.xyz:2: the line ends before a y"));
+                      ContainsSubstring("bottom.xyz:2: a y is missing"));
     CHECK_THROWS_WITH(sb::parse_xyz("0 0 1\r\n\r\n1 0\r\n2 0 3", 1, 1, "bottom.xyz"),
                       ContainsSubstring("bottom.xyz:3:"));
     const std::string line_end = GENERATE("\n", "\r\n", "\r");
@@ -115,7 +115,10 @@ TEST_CASE("A sounding with an empty cell for z is skipped, and columns stay wher
     CHECK(field.heights(2, 0) == -3);
     CHECK(missing(field.heights(1, 0)));
     CHECK(missing(field.heights(1, 1)));
-    CHECK_THROWS_WITH(sb::parse_xyz("0,,3\n", 1), ContainsSubstring("ends before a y"));
+    CHECK_THROWS_WITH(sb::parse_xyz("0,,3\n", 1), ContainsSubstring("a y is missing"));
+    // A line whose first cell is empty does not begin with a number.
+    CHECK_FALSE(missing(sb::parse_xyz("0,0,1\n1,0,2\n,5,7,9\n", 1).heights(1, 0)));
+    CHECK(sb::parse_xyz("0,0,1\n1,0,2\n,5,7,9\n", 1).heights.height() == 2);
 }
 
 TEST_CASE("Decimal commas are refused") {
@@ -179,6 +182,16 @@ TEST_CASE("Gaps are filled from their edges up to the given distance") {
     const sb::heightfield whole = sb::fill_gaps(field);
     CHECK(holes(whole) == 0);
     CHECK(whole.heights(4, 4) == 2);
+    // Each from the known neighbours of the round before, in whatever order the grid is scanned.
+    for (int j = 0; j < 9; ++j)
+        for (int i = 0; i < 9; ++i)
+            if (!missing(field.heights(i, j))) field.heights(i, j) = static_cast<float>(i + 2 * j);
+    const sb::heightfield sloping = sb::fill_gaps(field);
+    for (int j = 0; j < 9; ++j)
+        for (int i = 0; i < 9; ++i) CHECK(sloping.heights(i, j) + sloping.heights(8 - i, 8 - j) == Approx(24));
+    CHECK(sloping.heights(2, 2) == Approx((3 + 5 + 7 + 4 + 5) / 5.0));
+    CHECK_THROWS_WITH(sb::fill_gaps(field, -1), ContainsSubstring("reach is -1"));
+    CHECK_THROWS_WITH(sb::parse_xyz("0 0 1\n1 0 2\n", 1, std::nanf("")), ContainsSubstring("scale is nan"));
     sb::heightfield nothing{.heights = in::image<float>(3, 3, std::numeric_limits<float>::quiet_NaN())};
     CHECK(holes(sb::fill_gaps(nothing)) == 9);
 }

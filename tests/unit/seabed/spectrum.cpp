@@ -7,6 +7,7 @@
 #include <complex>
 
 #include "../../catch.hpp"
+#include "../../larger.hpp"
 
 namespace in = insonify;
 namespace sb = insonify::seabed;
@@ -206,7 +207,7 @@ TEST_CASE("The profile of ripples is a trochoid's to within 0.07 of half their h
         double e = 2 * pi * i / n;
         for (int k = 0; k < 50; ++k) e = 2 * pi * i / n + s * std::sin(e);  // Kepler's equation
         const double height = static_cast<double>(row(static_cast<int>((crest + i) % n), 0));
-        worst = std::max(worst, std::abs(2 * (height - trough) / (top - trough) - 1 - std::cos(e)));
+        worst = larger(worst, std::abs(2 * (height - trough) / (top - trough) - 1 - std::cos(e)));
     }
     CHECK(worst < 0.07);
     CHECK(worst > 0.001);

@@ -40,7 +40,7 @@ const in::seabed::any recipes[] = {in::seabed::ripples{.wavelength = 0.6f, .stee
 
 }  // namespace
 
-TEST_CASE("A triangle that is known to be lit or dark is so at all of its points, as seen from the camera") {
+TEST_CASE("decide_triangles() calls a triangle lit or dark only if all of its points are") {
     in::serial_executor serial;
     std::size_t known = 0, all = 0;
     double azimuth = 20;
@@ -74,7 +74,7 @@ TEST_CASE("A triangle that is known to be lit or dark is so at all of its points
     CHECK(known > all / 2);
 }
 
-TEST_CASE("Where another caster may shade a seabed, its triangles are known no longer") {
+TEST_CASE("decide_triangles() leaves triangles undecided that another caster may shade") {
     in::serial_executor serial;
     std::size_t lit = 0, shaded = 0;
     double azimuth = 35;

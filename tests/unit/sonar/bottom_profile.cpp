@@ -93,7 +93,7 @@ TEST_CASE("Nothing is received before the first return, in the bin that ends at 
     }
 }
 
-TEST_CASE("A pitched fan whose foot lies half a metre within the data hears what it hears on endless ground") {
+TEST_CASE("A pitched ping half a metre from the edge of the data records the same energy as over unbounded ground") {
     for (const double pitch : {0.2, -0.5})
         for (const double edge : {-8.0, 2.0}) {
             // Behind the edge, seen from the foot, the ground is missing; far away it rises, so that its bounds are

@@ -96,7 +96,8 @@ TEST_CASE("A pitched fan meets relief where its plane cuts the seabed") {
     int dark[2] = {0, 0};
     for (int row = 0; row < 2; ++row)
         for (const std::uint16_t by : heard.labels.shadow.row(row)) dark[row] += by == in::labels::by_seabed;
-    CHECK(dark[0] > dark[1] + 10);
+    CHECK(dark[0] > 10);
+    CHECK(dark[1] == 0);
 }
 
 TEST_CASE("A ping on the border of two tiles of the seabed is like any other") {
@@ -162,7 +163,8 @@ TEST_CASE("The same code draws with any rig: options_for(rig) shares law, cell a
         coarse.cell = 0.5;
         const in::frame<in::no_labels> drawn = in::render(s, rig, coarse);
         CHECK(drawn.stats.cell == 0.5);
-        CHECK_FALSE(drawn.image == in::render(s, rig, defaults.with(in::lambert_backscatter{})).image);
+        CHECK_FALSE(in::render(s, rig, defaults.with(in::lambert{})).image ==
+                    in::render(s, rig, defaults.with(in::lambert_backscatter{})).image);
         coarse.cell = -1;
         CHECK_THROWS_WITH(in::render(s, rig, coarse), ContainsSubstring("cell is -1, expected 0 metres or more"));
     };

@@ -270,9 +270,9 @@ TEST_CASE("with_speckle() refuses each field of a speckle by name") {
     }
     auto unlabelled = both;
     unlabelled.labels.seabed = in::image<std::uint8_t>(16, 1);
-    CHECK_THAT(refusal([&] { (void)in::with_speckle(unlabelled); }), ContainsSubstring("labels.seabed.height() is 1"));
+    CHECK_THAT(refusal([&] { (void)in::with_speckle(unlabelled); }), ContainsSubstring("labels.seabed.size() is 16"));
     unlabelled.labels.seabed = {};
-    CHECK_THAT(refusal([&] { (void)in::with_speckle(unlabelled); }), ContainsSubstring("labels.seabed.width() is 0"));
+    CHECK_THAT(refusal([&] { (void)in::with_speckle(unlabelled); }), ContainsSubstring("labels.seabed.size() is 0"));
 }
 
 TEST_CASE("A gap between two pictures leaves room for their columns") {
@@ -292,6 +292,8 @@ TEST_CASE("Filters of recordings refuse each field by name") {
     check_fields<in::ping_banding>("ping_banding.", {}, use,
                                    {FIELD(drift, outside(0, 60)), FIELD(length, outside(1, 1e9)),
                                     FIELD(jitter, outside(0, 60)), FIELD(step, {0, 2, -2})});
+    CHECK_THAT(refusal([&] { use(in::ping_banding{.first_ping = (std::int64_t{1} << 61) + 1}); }),
+               ContainsSubstring("ping_banding.first_ping"));
     static_assert(members<in::water_column>() == 13);
     check_fields<in::water_column>(
         "water_column.", {}, use,
@@ -359,7 +361,7 @@ TEST_CASE("settings_for() refuses budgets and probes by name") {
                                        FIELD(finest, outside(1, 8)), FIELD(usable_share, outside(0, 1))});
 }
 
-TEST_CASE("An overhead sonar below all of the seabed is refused, as where the datum lies elsewhere") {
+TEST_CASE("An overhead camera below the lowest seabed height is refused (a wrong datum)") {
     in::scene s;
     s.seabed =
         in::seabed::heightfield{.heights = in::image<float>(40, 40, 42.0f), .origin = {-10, -10}, .spacing = 0.5};

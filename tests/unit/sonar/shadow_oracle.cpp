@@ -164,8 +164,8 @@ TEST_CASE("Oracle: under a light nearby, the shadow of a square is a larger squa
 
 TEST_CASE(
     "Oracle: open sheets are dark on the side that faces away, and lit on the other, whichever way they are wound") {
-    // Tilted by 30 degrees, low side to the right: at 45 degrees light from either side falls on it, at 20 degrees
-    // from one side only.
+    // Tilted by 30 degrees, low side to the left, towards light of azimuth 0: at 45 degrees light from either side
+    // falls on it, at 20 degrees from there only.
     for (const bool turned : {false, true}) {
         const in::mesh quad = shapes::tilted_quad();
         const in::scene s = foreign::bare(turned ? shapes::turned_around(quad) : quad, {});
@@ -174,10 +174,9 @@ TEST_CASE(
             CHECK(above.count(verdict::dark) == 0);
             CHECK(above.count(verdict::lit) > 200);
         }
-        const case_at front(s, foreign::rig(180, 20, 64)), back(s, foreign::rig(0, 20, 64));
-        CHECK(front.count(verdict::lit) + back.count(verdict::lit) ==
-              back.count(verdict::dark) + front.count(verdict::dark));
-        CHECK((front.count(verdict::dark) == 0) != (back.count(verdict::dark) == 0));
+        const case_at front(s, foreign::rig(0, 20, 64)), back(s, foreign::rig(180, 20, 64));
+        CHECK((front.count(verdict::dark) == 0 && front.count(verdict::lit) > 200));
+        CHECK((back.count(verdict::lit) == 0 && back.count(verdict::dark) > 200));
     }
 }
 

@@ -246,6 +246,8 @@ TEST_CASE("A relief on a lattice has the same pictures when one of its cells is 
     in::mesh list = lattice;
     list.triangles[0] = {0, 1, cells + 1};
     list.triangles[1] = {1, cells + 2, cells + 1};
+    REQUIRE(in::shared_mesh(lattice).grid() != nullptr);
+    REQUIRE(in::shared_mesh(list).grid() == nullptr);
     const auto drawn = [](const in::mesh& relief, const in::overhead& rig) {
         in::scene s;
         s.seabed = in::seabed::none{};
@@ -443,6 +445,7 @@ TEST_CASE("A camera that looks under the border of a heightfield sees its lower 
     for (const bool is_open : {false, true}) {
         in::mesh ramp = shadow_meshes::sheet(2, 2, [](double u, double v) { return glm::dvec3(u, v, 2 * v); });
         if (is_open) ramp = shadow_meshes::joined(ramp, far_below);
+        REQUIRE((in::shared_mesh(ramp).kind() == in::surface_kind::heightfield) == !is_open);
         in::scene s;
         s.seabed = in::seabed::none{};
         s.add(ramp, {.position = {-0.5, -3, 0}}, "ramp");
@@ -508,8 +511,10 @@ TEST_CASE("A closed mesh that the near plane cuts open is dark inside") {
     for (const double gap : {0.001, 0.01, 0.1}) {
         const in::pose beside{.position = {4 + gap, 0, 10}};
         CAPTURE(gap);
-        CHECK(picture_of_one(box, beside, rig).labels.shadow ==
-              picture_of_one(shadow_meshes::joined(box, far_below), beside, rig).labels.shadow);
+        const in::labels closed = picture_of_one(box, beside, rig).labels;
+        CHECK(closed.shadow == picture_of_one(shadow_meshes::joined(box, far_below), beside, rig).labels.shadow);
+        if (gap == 0.001)
+            CHECK((closed.instance(120, 8) == 1 && closed.shadow(120, 8) == 1));  // the floor, from inside
     }
 }
 
@@ -553,6 +558,7 @@ TEST_CASE("A wide light that reaches below the plane of a tilted grid casts the 
     in::image<float> pictures[2];
     for (const int is_open : {0, 1}) {
         if (is_open != 0) sheet = shadow_meshes::joined(sheet, far_below);
+        REQUIRE((in::shared_mesh(sheet).grid() != nullptr) == (is_open == 0));
         in::scene s;
         s.seabed = in::seabed::none{};
         s.add(sheet, {.position = {-1.2 * std::cos(tilt), -1.2, 2}, .pitch = static_cast<float>(tilt)}, "sheet");

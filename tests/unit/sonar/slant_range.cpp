@@ -305,10 +305,12 @@ TEST_CASE("Ranges below the altitude and pings below the seabed return nothing")
         for (const float v : heard.image.row(0)) CHECK(v == 0);
         for (const auto v : heard.labels.seabed.row(0)) CHECK(v == in::labels::no_seabed);
         for (const auto v : heard.labels.shadow.row(0)) CHECK(v == in::labels::is_lit);
+        const auto other = heard.image.row(1);
+        CHECK(std::count_if(other.begin(), other.end(), [](float v) { return v > 0; }) > 10);
     }
 }
 
-TEST_CASE("A recording of which all pings are below the seabed is refused, as where depths are given for heights") {
+TEST_CASE("A recording of which all pings are below the seabed is refused (depths passed as heights)") {
     for (const float altitude : {0.0f, -5.0f})
         CHECK_THROWS_WITH(in::render(level_bottom(), one_ping(altitude, 9, 64)),
                           ContainsSubstring("altitude of the highest ping is " + in::detail::to_text(altitude) +

@@ -142,6 +142,9 @@ TEST_CASE("A vertical beam is at full strength on its axis and a quarter, 6 dB, 
     CHECK(at(45) == Approx(0.25).epsilon(1e-5));
     CHECK(at(5) == Approx(0.25).epsilon(1e-5));
     CHECK(in::vertical_beam{.side_lobes = 0.01f}.over_direction(-1, 0) == Approx(0.01));
+    // An axis that points backwards has no step where the angle's sign changes.
+    const in::vertical_beam behind{.beamwidth = 100_deg, .tilt = 170_deg};
+    CHECK(behind.over_direction(-1, 1e-6) == Approx(behind.over_direction(-1, -1e-6)).epsilon(1e-4));
     const auto bare = heard(level_bottom(), in::sonar_equation<>{});
     const auto with = heard(level_bottom(), in::sonar_equation{beam});
     for (const int bin : {120, 300, 900}) {

@@ -37,7 +37,7 @@ TEST_CASE("both_sides() takes a recording of each side, of the same pings in the
     CHECK_THROWS_WITH(in::both_sides(other, starboard), ContainsSubstring("port.labels.targets.size() is 1"));
 }
 
-TEST_CASE("Labels name targets that are listed") {
+TEST_CASE("Labels of instances that are not in the target list are refused, as are images of different sizes") {
     in::labels l(3, 2);
     l.instance(1, 1) = 2;
     l.targets.push_back({"ball", 1, {}, {}, {}});
@@ -46,7 +46,18 @@ TEST_CASE("Labels name targets that are listed") {
     l.instance(1, 1) = 0, l.shadow(1, 1) = 3;
     CHECK_THROWS_WITH(in::measure_targets(l), ContainsSubstring("labels.shadow is 3"));
     l.shadow = in::image<std::uint16_t>(3, 1);
-    CHECK_THROWS_WITH(in::measure_targets(l), ContainsSubstring("labels.shadow.height() is 1"));
+    CHECK_THROWS_WITH(in::measure_targets(l), ContainsSubstring("labels.shadow.size() is 3"));
+    CHECK_THROWS_WITH(in::shadow_mask(l, 0), ContainsSubstring("labels.instance.size() is 6"));
+}
+
+TEST_CASE("Masks of instance 0 are the pixels without a target, and the seabed that is lit") {
+    const auto l = in::render(in::scene{}, in::side_scan{.altitude = 5, .pings = 1, .range = 20, .bins = 80}).labels;
+    const auto bare = in::target_mask(l, 0), lit = in::shadow_mask(l, 0);
+    CHECK(std::count(l.seabed.pixels().begin(), l.seabed.pixels().end(), in::labels::no_seabed) > 10);
+    for (int bin = 0; bin < 80; ++bin) {
+        CHECK(bare(bin, 0) == 255);
+        CHECK(lit(bin, 0) == (l.seabed(bin, 0) == in::labels::no_seabed ? 0 : 255));
+    }
 }
 
 TEST_CASE("Slant-range correction takes recordings of one side, with labels of their size") {

@@ -78,7 +78,10 @@ class dynamic_array {
             if (!values.empty()) std::memcpy(static_cast<void*>(data_ + size_), values.data(), values.size_bytes());
             size_ += values.size();
         } else {
-            for (const T& value : values) ::new (static_cast<void*>(data_ + size_++)) T(value);
+            for (const T& value : values) {
+                ::new (static_cast<void*>(data_ + size_)) T(value);
+                ++size_;
+            }
         }
     }
     INSONIFY_TAGGED void push_back(T value) {

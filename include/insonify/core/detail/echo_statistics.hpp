@@ -69,7 +69,7 @@ double gamma_of_mean_one(double shape, const Draw& draw) {
 }
 
 /// The mean of the square root of a gamma-distributed number of mean one: Gamma(shape + 1/2) / (Gamma(shape)
-/// sqrt(shape)), to 1e-12, by its asymptotic series beyond 20.
+/// sqrt(shape)), to a relative error of 5e-12, by its asymptotic series beyond 20.
 inline double mean_root_of_gamma(double shape) {
     double factor = 1, x = shape;
     for (; x < 20; x += 1) factor *= x / (x + 0.5);

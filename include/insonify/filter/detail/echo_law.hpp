@@ -118,8 +118,9 @@ class echo_law {
             return field_taps(texture_ ? field_length(static_cast<double>(pixels), intensity)
                                        : field_length(static_cast<double>(pixels), speckle));
         };
-        fields_.correlate(taps(length.x), taps(length.y));
-        if (texture_) texture_field_.correlate(taps(length.x), taps(length.y));
+        const auto along_rows = taps(length.x), along_columns = taps(length.y);
+        fields_.correlate(along_rows, along_columns);
+        if (texture_) texture_field_.correlate(along_rows, along_columns);
     }
 
     /// Intensities of mean one without texture.

@@ -17,7 +17,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Whether most triangles share no vertex with the one before, as in shuffled meshes and triangle soups.
+/// Whether most triangles have no index within 63 of one of the triangle before, as in shuffled meshes and triangle
+/// soups.
 inline bool is_incoherent(const mesh& m) {
     std::size_t jumps = 0;
     for (std::size_t i = 1; i < m.triangles.size(); ++i) {

@@ -36,7 +36,7 @@ struct largest_index_kernel {
     }
 };
 
-/// The first index without a position among some triangles.
+/// The largest index of the first triangle that has an index without a position.
 inline std::optional<std::uint32_t> bad_index(std::span<const glm::uvec3> triangles, std::size_t vertices, isa level) {
     if (triangles.empty()) return std::nullopt;
     std::uint32_t largest = 0;
@@ -50,7 +50,7 @@ inline std::optional<std::uint32_t> bad_index(std::span<const glm::uvec3> triang
     return std::nullopt;
 }
 
-/// @throws invalid_input for the first index without a position
+/// @throws invalid_input for an index without a position
 template <executor E>
 void require_indices(const mesh_view& m, E& ex) {
     constexpr std::size_t grain = 65536;

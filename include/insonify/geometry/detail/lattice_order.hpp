@@ -110,8 +110,8 @@ struct lattice_vertices {
     }
 };
 
-/// Whether cells are cut from the lower left to the upper right corner. None unless the triangles are the halves of all
-/// cells, cut the same way and counter-clockwise.
+/// Whether cells are cut from the lower left to the upper right corner. None unless the triangles are halves of cells,
+/// cut the same way and counter-clockwise. @pre as many triangles as all cells have halves
 inline std::optional<bool> rising_diagonals(const mesh& m, const lattice_vertices& v) {
     std::vector<bool> found(m.triangles.size(), false);
     std::optional<bool> is_rising;

@@ -63,7 +63,6 @@ class aeroplane_builder {
         if (is_broken) {
             front.push_back(station(break_at + 1e-4));
             front.back().torn = -0.02 * length_;
-            front.back().x = (std::min)(front.back().x, front[front.size() - 2].x);
             aft.insert(aft.begin(), station(break_at + 2e-4));
             aft.front().torn = 0.02 * length_;
             append_body(fuselage, aft, 0, a_.segments, key_, tail_);

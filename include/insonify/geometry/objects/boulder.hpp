@@ -16,9 +16,9 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 /// A rock that stands on z = 0 and fills its box exactly. A boulder is larger than 0.256 m (C. K. Wentworth. A Scale of
-/// Grade and Class Terms for Clastic Sediments. Journal of Geology 30, 1922); the default proportions are those usual
-/// for glacial boulders, 1 : 0.8 : 0.6 (Th. Zingg. Beitrag zur Schotteranalyse. 1935: the borders between disc, rod,
-/// sphere and blade are at 2 : 3).
+/// Grade and Class Terms for Clastic Sediments. Journal of Geology 30, 1922); the default proportions are close to
+/// those usual for glacial boulders, 1 : 0.8 : 0.6 (Th. Zingg. Beitrag zur Schotteranalyse. 1935: the borders between
+/// disc, rod, sphere and blade are at 2 : 3).
 struct boulder {
     glm::vec3 size{1.2f, 1.0f, 0.75f};  ///< metres; the largest at most 100 times the least
     float angularity = 0.6f;            ///< 0: round, 1: bounded by plane fractures

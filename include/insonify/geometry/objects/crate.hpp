@@ -21,7 +21,7 @@ struct crate {
     int boards = 5;                    ///< one above another on each side, 1 to 64
     float gap = 0.1f;                  ///< share of a board's width that is open between two, 0.01 to 0.9
     bool is_open = false;              ///< the lid is missing
-    float damage = 0;                  ///< fraction of side and lid boards that are missing, 0 to 1
+    float damage = 0;                  ///< probability that a board of a side or of the lid is missing, 0 to 1
     std::uint64_t seed = 1;            ///< selects the missing ones
 };
 
@@ -60,7 +60,8 @@ inline mesh to_mesh(const crate& c) {
         return extent{low + pitch * i, low + pitch * (i + 1 - static_cast<double>(c.gap))};
     };
 
-    // Boards of the short sides and of lid and floor reach half way into those of the long sides.
+    // Boards of the short sides reach half way into those of the long sides; boards of lid and floor, half way into
+    // those of the short sides.
     for (int i = 0; i < c.boards; ++i) {
         const auto [low, high] = part(i, 0, half.z);
         const double trim = (std::min)(0.05 * t, 0.1 * (high - low));

@@ -63,8 +63,8 @@ inline void append_decks(mesh& into, const hull& h, const hull_lines& lines, con
     double reached = 0.004;
     for (const deck_plate& hatch : hatches) {
         plates.push_back({reached, hatch.from});
-        plates.push_back({hatch.from - 0.001, hatch.to + 0.001, -1, hatch.left, true});
-        plates.push_back({hatch.from - 0.001, hatch.to + 0.001, hatch.right, 1, true});
+        plates.push_back({hatch.from - 0.001, hatch.to + 0.001, -1, hatch.starboard, true});
+        plates.push_back({hatch.from - 0.001, hatch.to + 0.001, hatch.port, 1, true});
         reached = hatch.to;
     }
     plates.push_back({reached, 0.985});
@@ -154,7 +154,8 @@ inline compound to_compound(const hull& h) {
         // What collapsed lies flatter, and what fell off it lies on the bottom.
         const affine turn = turned(h.break_roll * (1 - h.collapse)), level = turned(0);
         double lowest = 0;
-        for (const glm::vec3& p : bow[0].positions) lowest = (std::min)(lowest, transform_point(turn, glm::dvec3(p)).z);
+        for (const glm::vec3& p : bow[static_cast<std::size_t>(detail::hull_part::plating)].positions)
+            lowest = (std::min)(lowest, transform_point(turn, glm::dvec3(p)).z);
         const affine raised{turn.linear, turn.offset - glm::dvec3(0, 0, lowest)};
         for (std::size_t i = 0; i < all.size(); ++i) {
             const auto part = static_cast<detail::hull_part>(i);

@@ -22,7 +22,7 @@ struct lobster_pot {
     float height = 0.41f;     ///< metres
     float bar = 0.016f;       ///< diameter of the frame, metres, 1/1000 of the largest to 1/8 of the least size
     int hoops = 4;            ///< 2 to 16
-    float mesh_size = 0.07f;  ///< between two twines, metres, 1/64 of the largest size to that size; 0: without a net
+    float mesh_size = 0.07f;  ///< spacing of the twines, metres, 1/64 of the largest size to that size; 0: no net
     float twine = 0.005f;     ///< diameter of the net's bars, metres, 1/2000 of the largest size to `bar`
     float crushed = 0;        ///< 0: upright, 1: hoops bent over until a fifth of the height is left
     int segments = 12;        ///< straight pieces of a hoop, 6 to 256

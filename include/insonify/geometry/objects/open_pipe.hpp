@@ -22,7 +22,7 @@ inline namespace INSONIFY_ABI {
 struct open_pipe {
     float diameter = 0.71f;  ///< outside, metres
     float length = 12;       ///< from end to end, metres
-    float wall = 0.065f;     ///< thickness, metres, 1/10000 of the larger size to below half the diameter
+    float wall = 0.065f;     ///< thickness, metres, 1/10000 of the larger size to below 0.499 of the diameter
     /// Metres by which a flange at either end stands out, 1/10000 of the larger size to the diameter; 0: none.
     float flange = 0;
     float broken = 0;        ///< metres by which the +x end is ragged, at most half the length; 0: cut square
@@ -38,7 +38,7 @@ inline void validate(const open_pipe& p) {
     detail::require_size("open_pipe.length", p.length);
     const float larger = p.diameter > p.length ? p.diameter : p.length;
     detail::require(p.wall >= 1e-4f * larger && p.wall < 0.499f * p.diameter, "open_pipe.wall", p.wall,
-                    "at least 1/10000 of the larger size, below half the diameter");
+                    "at least 1/10000 of the larger size, below 0.499 of the diameter");
     detail::require(p.flange == 0 || (p.flange >= 1e-4f * larger && p.flange <= p.diameter), "open_pipe.flange",
                     p.flange, "0, or from 1/10000 of the larger size to the diameter");
     detail::require_range("open_pipe.broken", p.broken, 0, 0.5f * p.length, "0 to half the length");

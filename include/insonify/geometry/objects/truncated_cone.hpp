@@ -24,7 +24,7 @@ struct truncated_cone {
     float height = 0.47f;        ///< with the boss, metres, at least diameter / 10000
     /// Metres that the edge of the top is rounded by, at most a fifth of height and of top_diameter; 0: sharp.
     float shoulder = 0.05f;
-    float boss_diameter = 0.22f;  ///< metres, at most 0.8 of the top; 0: none
+    float boss_diameter = 0.22f;  ///< metres, at most 0.8 of the flat top, inside the shoulder; 0: none
     float boss_height = 0.04f;    ///< metres, at most a quarter of the height; 0: none
     int lugs = 2;                 ///< 0 to 8
     int segments = 64;            ///< around the axis, 6 to 8192; see `segments_for`
@@ -40,8 +40,8 @@ inline void validate(const truncated_cone& c) {
     detail::require_thickness("truncated_cone.top_diameter", c.top_diameter, c.diameter);
     detail::require(c.shoulder >= 0 && c.shoulder <= 0.2f * (std::min)(c.height, c.top_diameter),
                     "truncated_cone.shoulder", c.shoulder, "0 to a fifth of height and top_diameter");
-    detail::require(c.boss_diameter >= 0 && c.boss_diameter <= 0.8f * c.top_diameter, "truncated_cone.boss_diameter",
-                    c.boss_diameter, "0 to 0.8 top_diameter");
+    detail::require(c.boss_diameter >= 0 && c.boss_diameter <= 0.8f * (c.top_diameter - 2 * c.shoulder),
+                    "truncated_cone.boss_diameter", c.boss_diameter, "0 to 0.8 (top_diameter - 2 shoulder)");
     detail::require(c.boss_height >= 0 && c.boss_height <= 0.25f * c.height, "truncated_cone.boss_height",
                     c.boss_height, "0 to a quarter of the height");
     detail::require_range("truncated_cone.lugs", c.lugs, 0, 8, "0 to 8");

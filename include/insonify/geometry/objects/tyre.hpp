@@ -22,8 +22,8 @@ struct tyre {
     float width = 0.195f;         ///< metres, 0.001 to 10 diameters
     float rim_diameter = 0.381f;  ///< of the hole, metres, 0.001 to 0.95 diameters
     float wall = 0.015f;          ///< thickness, metres, at most 0.45 of the width and of diameter - rim_diameter
-    float fill = 0;               ///< depth of sediment in the hole over 0.95 of the inner height: 0, or 0.001 to 1
-    int segments = 64;            ///< around the axis, 6 to 8192; a quarter as many across the tread
+    float fill = 0;     ///< level of sediment in the hole: 0: none; 0.001 to 1: from 0.05 to 0.95 of the inner height
+    int segments = 64;  ///< around the axis, 6 to 8192; a quarter as many across the tread
 };
 
 inline namespace INSONIFY_FLAGS {

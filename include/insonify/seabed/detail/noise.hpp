@@ -148,7 +148,7 @@ class gradient_noise {
 /// Octaves of gradient noise, cells halved from one to the next, that make up a `roughness`.
 class power_law_noise {
   public:
-    /// @throws invalid_input for parameters out of the ranges above
+    /// @throws invalid_input for parameters out of the ranges of `roughness`
     power_law_noise(const roughness& r, std::uint64_t seed, stream purpose, std::uint32_t layer = 0) {
         require_metres("roughness.rms", r.rms);
         require_positive_metres("roughness.longest", r.longest);

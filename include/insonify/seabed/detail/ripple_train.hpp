@@ -32,8 +32,8 @@ class ripple_train {
   public:
     static constexpr std::size_t waves = 32;
 
-    /// Regularizes the zeros of psi, relative to its rms: the amplitude falls to zero at a fork within a few hundredths
-    /// of a wavelength, and slopes stay bounded.
+    /// Regularizes the zeros of psi, relative to its rms: the amplitude falls to zero at a fork over 0.15 /
+    /// (2 pi spread) wavelengths, a quarter of one by default, and slopes stay bounded.
     static constexpr float softening = 0.15f;
 
     /// @param name  of the system, for errors
@@ -80,7 +80,7 @@ class ripple_train {
     static constexpr std::size_t points = 256;  // size of the table that a stretch shares
 
     void draw_waves(const ripple_system& r, random_sequence draw) {
-        // Latin hypercube sampling of direction and wave number: few waves suffice for the moments asked for.
+        // Latin hypercube sampling of direction and wave number: few waves suffice for the required moments.
         std::array<double, waves> strata{};
         for (std::uint32_t n = 0; n < waves; ++n) {
             const std::uint32_t other = draw.below(n + 1);
@@ -103,7 +103,7 @@ class ripple_train {
             largest = (std::max)(largest, numeric::abs(wave_x_[n]));
         }
 
-        // The fastest wave turns by a sixteenth per lattice step: cubic interpolation is then off by less than 0.0006
+        // The fastest wave turns by a sixteenth per lattice step: cubic interpolation is then off by at most 0.0011
         // of its amplitude.
         step_ = (std::min)(static_cast<double>(r.wavelength), 1 / (16 * (std::max)(largest, 1e-6 * frequency)));
         const double scale = numeric::square_root(1.0 / static_cast<double>(waves));

@@ -34,6 +34,12 @@ class survey_reader {
         for (; at_ < text_.size() && is_blank(text_[at_]); ++at_) line_ += ends_line(at_) ? 1u : 0u;
         return word_here();
     }
+    /// The first word of this line or a later one; a comma or semicolon if its first field is empty.
+    std::string_view first_word() {
+        for (; at_ < text_.size() && is_blank(text_[at_]) && !is_comma(text_[at_]); ++at_)
+            line_ += ends_line(at_) ? 1u : 0u;
+        return at_ < text_.size() && is_comma(text_[at_]) ? text_.substr(at_, 1) : word_here();
+    }
     /// A field of a line, and what stands before it: ',', ';' or, for blanks alone, ' '.
     struct field {
         std::string_view text;
@@ -66,7 +72,7 @@ class survey_reader {
     double number(const char* what) { return number(word(), what); }
     double number(std::string_view digits, const char* what) const {
         if (digits.empty())
-            fail((at_ < text_.size() ? "the line ends before " : "the text ends before ") + std::string(what));
+            fail(at_ < text_.size() ? std::string(what) + " is missing" : "the text ends before " + std::string(what));
         double value = 0;
         if (!insonify::detail::parse_number(digits, value))
             fail(insonify::detail::quoted(digits) + " is not a number, expected " + what);

@@ -30,6 +30,11 @@ inline void check_length(const char* name, float value) {
     require_range(name, value, 1, 1e9f, "1 to 1e9 pixels");
 }
 
+/// A gain as a float: finite, so that shadows stay 0.
+inline float gain_of(double decibels) {
+    return static_cast<float>((std::min)(from_decibels(decibels), 0x1p127));
+}
+
 /// Pass of a range_gain_error: factors by column, computed once for each.
 template <class Error>
 class range_gain_law {
@@ -41,9 +46,9 @@ class range_gain_law {
         first_ = area.x;
         factors_.clear();
         for (int i = 0; i < area.width; ++i)
-            factors_.push_back(static_cast<float>(from_decibels(
-                static_cast<double>(e_.slope) * ((i + 0.5) / area.width - 0.5) +
-                static_cast<double>(e_.rms) * smooth_noise((area.x + i) / static_cast<double>(e_.length), curve_))));
+            factors_.push_back(gain_of(static_cast<double>(e_.slope) * ((i + 0.5) / area.width - 0.5) +
+                                       static_cast<double>(e_.rms) *
+                                           smooth_noise((area.x + i) / static_cast<double>(e_.length), curve_)));
     }
     template <std::same_as<float> Pixel>
     Pixel operator()(Pixel intensity, int x, int) const {
@@ -75,8 +80,8 @@ class banding_law {
   private:
     float factor_of(std::int64_t ping) const {
         const double at = static_cast<double>(ping) / static_cast<double>(b_.length);
-        return static_cast<float>(from_decibels(static_cast<double>(b_.drift) * smooth_noise(at, drift_) +
-                                                static_cast<double>(b_.jitter) * lattice_normal(ping, 0, 0, jitter_)));
+        return gain_of(static_cast<double>(b_.drift) * smooth_noise(at, drift_) +
+                       static_cast<double>(b_.jitter) * lattice_normal(ping, 0, 0, jitter_));
     }
 
     Banding b_;
@@ -91,8 +96,8 @@ class banding_law {
 /// rows.
 struct range_gain_error {
     float rms = 1.5f;    ///< decibels of the random curve, 0 to 60
-    float length = 120;  ///< bins between nodes of the curve; values two nodes apart are independent
-    float slope = 0;  ///< decibels from the first column of the given picture to its last, -60 to 60; 0 in the middle
+    float length = 120;  ///< bins between nodes of the curve, 1 to 1e9; values two nodes apart are independent
+    float slope = 0;     ///< decibels from the left edge of the given picture to the right, -60 to 60; 0 in the middle
     std::uint64_t seed = 1;
 
     using is_filter = std::true_type;
@@ -110,7 +115,7 @@ struct range_gain_error {
 /// of each. Row `y` is ping first_ping + step * y, so that recordings made in pieces fit together.
 struct ping_banding {
     float drift = 1;              ///< decibels (rms), 0 to 60
-    float length = 40;            ///< pings between nodes of the drift
+    float length = 40;            ///< pings between nodes of the drift, 1 to 1e9
     float jitter = 0.5f;          ///< decibels (rms), 0 to 60
     std::int64_t first_ping = 0;  ///< within 2^61
     int step = 1;                 ///< 1 or -1

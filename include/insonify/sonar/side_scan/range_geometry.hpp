@@ -2,7 +2,7 @@
 //
 // Lengths are metres. `altitude` is the sonar's above the seabed, `ground` a distance across the track on the seabed,
 // `height` that of a point above the seabed. Results that do not exist are 0 (a distance inside the water column) or
-// infinity (the shadow of an object as high as the sonar), never NaN for arguments within 1e150.
+// infinity (the shadow of an object as high as the sonar), never NaN for lengths within 1e150 and angles within a turn.
 //
 // Based on: P. Blondel. The Handbook of Sidescan Sonar. 2009.
 #pragma once

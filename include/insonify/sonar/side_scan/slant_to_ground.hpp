@@ -30,14 +30,7 @@ frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from,
     detail::require(slant.rows.step != 0, "slant.rows.step", slant.rows.step, "1 or -1, as of a recording");
     detail::require(slant.rows.port_columns == 0, "slant.rows.port_columns", slant.rows.port_columns,
                     "0, as of a recording of one side");
-    if constexpr (std::is_same_v<Labels, labels>) {
-        const auto require_size = [&](const char* name, const auto& of) {
-            detail::require(of.width() == bins && of.height() == rows, name, of.size(), "that of the image");
-        };
-        require_size("labels.instance.size()", slant.labels.instance);
-        require_size("labels.shadow.size()", slant.labels.shadow);
-        require_size("labels.seabed.size()", slant.labels.seabed);
-    }
+    if constexpr (std::is_same_v<Labels, labels>) detail::require_sizes(slant.labels, bins, rows, "that of the image");
     detail::require(altitudes.empty() || altitudes.size() == static_cast<std::size_t>(rows), "altitudes.size()",
                     altitudes.size(), "0 or one per row");
     for (const double altitude : altitudes) detail::require_finite("altitudes", altitude);

@@ -57,7 +57,10 @@ struct vertical_beam {
     float side_lobes = 1e-3f;                                       ///< two-way power relative to that on the axis
     /// @param across, down  of the unit vector along the ray
     INSONIFY_MEMBER double over_direction(double across, double down) const {
-        const double off = (numeric::atan2(down, across) - static_cast<double>(tilt)) / static_cast<double>(beamwidth);
+        double off = numeric::atan2(down, across) - static_cast<double>(tilt);
+        if (off > numeric::pi) off -= 2 * numeric::pi;
+        if (off < -numeric::pi) off += 2 * numeric::pi;
+        off /= static_cast<double>(beamwidth);
         return static_cast<double>(side_lobes) + numeric::exp(-5.545177444479562 * off * off);  // 8 ln 2
     }
 };
@@ -74,10 +77,10 @@ struct horizontal_beam {
         const double off = along / (range * static_cast<double>(beamwidth));
         return numeric::exp(-5.545177444479562 * off * off);
     }
-    /// Correlation length (1 / e) of speckle intensities along the track, metres. Two pings correlate as long as the
-    /// sonar moves by less than a fraction of its array, so that phases stay the same, and of the footprint, so that
-    /// the scatterers do. Gaussian patterns make both correlations Gaussian, with lengths of 0.2650 wavelength /
-    /// beamwidth and 0.6006 range x beamwidth.
+    /// Correlation length (1 / e) of speckle intensities along the track, metres. Two pings correlate while the sonar
+    /// has moved by only a fraction of its array (phases persist) and of the footprint (scatterers persist). Gaussian
+    /// patterns make both correlations Gaussian, with lengths of 0.2650 wavelength / beamwidth and 0.6006 range x
+    /// beamwidth.
     /// @param wavelength  of the sound, metres: 0.0033 at 450 kHz
     INSONIFY_TAGGED double speckle_length(double range, double wavelength) const {
         const double by_footprint = 0.6005612 * range * static_cast<double>(beamwidth);
@@ -89,7 +92,7 @@ struct horizontal_beam {
 /// The pulse: a rectangle around the range of every echo.
 struct pulse {
     float length = 0.03f;  ///< metres of range: c x duration / 2, or c / (2 x bandwidth)
-    INSONIFY_MEMBER double duration() const { return static_cast<double>(length); }
+    INSONIFY_MEMBER double range_length() const { return static_cast<double>(length); }
 };
 
 /// The mean intensity of the receiver's noise. Speckle makes it fluctuate.
@@ -126,8 +129,8 @@ struct time_varied_gain {
 };
 
 /// Gain under which level seabed at the datum, of reflectivity 1, has intensity 1, whatever the other parts are: beam
-/// pattern, spreading, law and area. At grazing angles above `steepest` it is constant, so that the first return stays
-/// bright.
+/// pattern, spreading, law and area. Above `steepest`, and before the first return, it takes the grazing angle to be
+/// `steepest`, so that the first return stays bright; losses by range are still compensated.
 struct level_gain {
     float steepest = static_cast<float>(numeric::pi / 4);  ///< radians, below pi / 2
     template <class LevelAt>
@@ -203,7 +206,7 @@ concept footprint_part = requires(const P& p) {
 };
 template <class P>
 concept pulse_part = requires(const P& p) {
-    { p.duration() } -> std::convertible_to<double>;
+    { p.range_length() } -> std::convertible_to<double>;
 };
 template <class P>
 concept noise_part = requires(const P& p) {

@@ -37,7 +37,7 @@ inline section aerofoil(const aerofoil_surface& wing, double t) {
     const auto add = [&](double x, double side) {
         const double half = 5 * wing.thickness *
                             (0.2969 * numeric::square_root(x) - 0.126 * x - 0.3516 * x * x + 0.2843 * x * x * x -
-                             0.0936 * x * x * x * x);  // a trailing edge of 1/20 of the thickness instead of 1/50
+                             0.0936 * x * x * x * x);  // a trailing edge of 1/10 of the thickness instead of 1/50
         out.push_back(nose + glm::dvec3(-x * chord, 0, 0) + side * half * chord * wing.up);
     };
     for (const double x : stations) add(x, 1);

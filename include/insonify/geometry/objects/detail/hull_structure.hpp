@@ -71,9 +71,9 @@ inline void append_frame(mesh& into, const hull_lines& lines, double u, double s
     append_loft(into, sections);
 }
 
-/// Part of a deck: between two stations, and between two shares of the half breadth.
+/// Part of a deck: between two stations, and between two shares of the half breadth, port positive.
 struct deck_plate {
-    double from, to, left = -1, right = 1;
+    double from, to, starboard = -1, port = 1;
     bool is_split_off = false;  ///< lies a plate's thickness lower, so that it shares no edge with those beside it
 };
 
@@ -84,7 +84,7 @@ inline void append_deck(mesh& into, const hull_lines& lines, const deck_plate& p
         const double u = plate.from + (plate.to - plate.from) * k / steps;
         section ring;
         const auto add = [&](double t, double drop) {
-            const double share = plate.left + (plate.right - plate.left) * t;
+            const double share = plate.starboard + (plate.port - plate.starboard) * t;
             // Camber: 1/50 of the breadth, the usual parabola.
             const double camber = 0.04 * lines.half_beam() * (1 - share * share);
             const double split = plate.is_split_off ? 0.3 * lines.plating() : 0.0;
@@ -104,7 +104,7 @@ inline void append_coaming(mesh& into, const hull_lines& lines, const deck_plate
         return lines.between(at, lines.deck_w(at), share, lines.deck_height(at) + up);
     };
     const double below = -0.6 * lines.plating();
-    for (const double share : {opening.left, opening.right}) {
+    for (const double share : {opening.starboard, opening.port}) {
         const glm::dvec3 out(0, share > 0 ? thick : -thick, 0);
         const glm::dvec3 a = corner(u[0], share, below), b = corner(u[1], share, below);
         const glm::dvec3 up(0, 0, height);
@@ -112,7 +112,7 @@ inline void append_coaming(mesh& into, const hull_lines& lines, const deck_plate
     }
     for (const double at : u) {
         const glm::dvec3 along(at == u[0] ? -thick : thick, 0, 0), up(0, 0, 0.97 * height);
-        const glm::dvec3 a = corner(at, opening.left - 0.02, below), b = corner(at, opening.right + 0.02, below);
+        const glm::dvec3 a = corner(at, opening.starboard - 0.02, below), b = corner(at, opening.port + 0.02, below);
         append_block(into, {{a, a + along, a + along + up, a + up}}, {{b, b + along, b + along + up, b + up}});
     }
 }

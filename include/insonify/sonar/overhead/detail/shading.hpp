@@ -44,6 +44,20 @@ inline bool is_far_from_origin(const bounding_box& box) {
     return false;
 }
 
+/// Transforms normals: cofactors over the power of two that is their size, so that the lengths of normals, on which
+/// it depends whether they are usable, do not shrink with the pose's scale.
+inline glm::mat3 normal_matrix(const glm::dmat3& linear) {
+    glm::dmat3 areas = numeric::cofactors(linear);
+    double square = 0;
+    for (int i = 0; i < 3; ++i) square = (std::max)(square, numeric::dot(areas[i], areas[i]));
+    if (!(square > 0) || !numeric::is_finite(square)) return glm::mat3(areas);
+    double unit = 1;
+    while (unit * unit > 2 * square) unit /= 2;
+    while (2 * unit * unit < square) unit *= 2;
+    for (int i = 0; i < 3; ++i) areas[i] /= unit;
+    return glm::mat3(areas);
+}
+
 /// Vertex shader of a mesh in the rig's picture.
 struct surface_vertex_shader {
     const overhead_geometry& view;
@@ -53,7 +67,7 @@ struct surface_vertex_shader {
     glm::mat3 normals;
 
     surface_vertex_shader(const overhead_geometry& rig, const placed_mesh& shape)
-        : view(rig), linear(shape.to_rig.linear), normals(numeric::cofactors(shape.to_rig.linear)) {
+        : view(rig), linear(shape.to_rig.linear), normals(normal_matrix(shape.to_rig.linear)) {
         // Products of coordinates much larger than the mesh would cancel, and leave their rounding errors.
         if (is_far_from_origin(shape.box)) centre = glm::vec3(shape.box.centre());
         offset = glm::vec3(transform_point(shape.to_rig, glm::dvec3(centre)));
@@ -91,7 +105,7 @@ struct drawn_object {
     const shadow::decision* known = nullptr;  ///< lit, dark or undecided, by triangle; null if none is decided
 };
 
-/// The images that shading writes; null pointers are optional.
+/// The images that shading writes; those that may be null are optional.
 struct shaded_images {
     image<float>& picture;
     undecided_light* undecided = nullptr;    ///< if there is a shadow policy

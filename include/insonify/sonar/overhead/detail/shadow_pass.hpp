@@ -177,7 +177,7 @@ class shadow_pass {
         if constexpr (labelled) {
             if (is_facing && !(lit < 0.5f)) return;
             if (!is_facing && caster >= targets_) caster = own;
-            // A point without a caster is not tested yet.
+            // Without a caster the point is not tested yet, or the light's centre is visible.
             if (caster != shadow::invalid_id)
                 images_.labels.shadow.pixels()[pixel] = labels::of_caster(caster, targets_);
         }

@@ -26,8 +26,8 @@ struct bottom_point {
 class bottom_profile {
   public:
     /// @param step   metres between vertices, at least those between the fan's rays on the ground
-    /// @param range  ground range of the last bin's end; the profile goes on for a step, so that it meets the ray that
-    ///               falls on either side of it
+    /// @param range  ground range of the last bin's end; the profile extends one step further, so that a ray at the end
+    ///               still meets a facet
     bottom_profile(const bottom_tiles& tiles, double step, double range)
         : tiles_(tiles), step_(step), end_(static_cast<std::size_t>(numeric::floor_to_int(range / step)) + 3) {}
 

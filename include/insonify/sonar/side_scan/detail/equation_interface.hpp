@@ -1,5 +1,5 @@
-// Virtual interface of sonar equations, so that tracing is compiled once for all lists of parts. It returns factors
-// once per ray of a fan, and once per bin and altitude, never per echo.
+// Virtual interface of sonar equations, so that tracing is compiled once for all lists of parts. Its
+// functions are called once per ray of a fan, or once per bin and altitude, never per echo.
 #pragma once
 
 #include <insonify/sonar/side_scan/sonar_equation.hpp>
@@ -43,7 +43,7 @@ struct equation_of final : equation_interface {
     double pulse_length() const override {
         double length = 0;
         equation.for_each([&](const auto& part) {
-            if constexpr (pulse_part<decltype(part)>) length = part.duration();
+            if constexpr (pulse_part<decltype(part)>) length = part.range_length();
         });
         return length;
     }

@@ -82,14 +82,14 @@ class ping_tracer {
                         std::span<const sliced_target> targets) {
         const double altitude = p.position().z, first = static_cast<double>(window.first_range);
         if (!skips_foreground(relief, first, p)) return 0;
-        const double lowest = altitude - relief.lowest, begin = first - 4 * window.bin();
-        const double square = window.counts_time ? begin * begin - lowest * lowest : begin * begin;
-        const double place = begin > 0 && square > 0 ? numeric::square_root(square) - 4 * cell : 0;
+        const double deepest = altitude - relief.lowest, begin = first - 4 * window.bin();
+        const double square = window.counts_time ? begin * begin - deepest * deepest : begin * begin;
+        const double nearest = begin > 0 && square > 0 ? numeric::square_root(square) - 4 * cell : 0;
         // Targets that are nearer than the window's seabed, or all of whose echo comes through a gap.
         for (const sliced_target& t : targets)
-            if (t.is_met_by(p, 1e9) && (t.nearest(p) < place || t.top() < relief.lowest)) return 0;
+            if (t.is_met_by(p, 1e9) && (t.nearest(p) < nearest || t.top() < relief.lowest)) return 0;
         // The highest possible crest that occludes the lowest possible ground there.
-        return (std::max)(0.0, place * (altitude - relief.highest) / lowest - 4 * cell);
+        return (std::max)(0.0, nearest * (altitude - relief.highest) / deepest - 4 * cell);
     }
 
   private:

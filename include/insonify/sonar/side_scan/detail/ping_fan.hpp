@@ -1,7 +1,7 @@
 // The rays of a ping, in the plane across the track, from nadir outwards.
 //
-// Rays that meet level ground within the range have equal steps there. Steeper ones, for objects above it, have equal
-// angles: neighbours are at most a bin apart on a vertical wall at the largest range.
+// Rays that meet level ground within the range have equal steps there. Flatter ones, up to the zenith, meet objects
+// above it and have equal angles: neighbours are at most a bin apart on a vertical wall at the largest range.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>

@@ -106,7 +106,8 @@ class target_hits {
         return covered > 1 - 1e-9 ? 1 : covered;
     }
 
-    /// The target that most of ray k hits in front of a range, if more than half of it hits targets; else is_lit.
+    /// The target that most of ray k hits, if more than half of the ray hits targets and its nearest hit is in front of
+    /// `range`; else is_lit.
     std::uint16_t occluder(std::size_t k, double range) const {
         return k < occluders_.size() && occluders_[k].range < range ? occluders_[k].instance : labels::is_lit;
     }
