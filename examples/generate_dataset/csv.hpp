@@ -14,8 +14,9 @@ namespace generator {
 /// A cell, quoted if necessary.
 inline std::string csv_cell(std::string_view text) {
     const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
-    const bool is_stripped = !text.empty() && (is_blank(text.front()) || is_blank(text.back()));  // by readers
-    if (!is_stripped && text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+    // Readers strip blanks around unquoted cells.
+    const bool is_padded = !text.empty() && (is_blank(text.front()) || is_blank(text.back()));
+    if (!is_padded && text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
     std::string quoted = "\"";
     for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
     return quoted + '"';

@@ -141,20 +141,17 @@ int generate(const generator::options& o, const generator::shared_inputs& shared
         files.finish();
     });
 
-    const bool is_stopped = stop_signal != 0 && bar.done() < work.size();
     const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
-    if (is_stopped && bar.done() == 0)
-        std::printf("%s: no image finished\n", o.out.c_str());
-    else if (o.shard.given)
-        std::printf("%s, shard %llu of %llu: %llu images", o.out.c_str(), number(o.shard.number), number(o.shard.of),
-                    number(bar.done()));
-    else
-        std::printf("%s: %llu images", o.out.c_str(), number(generator::write_tables(root, o.preview, into)));
-    if (bar.done() > 0) {
+    if (bar.done() > 0) {  // else stopped before the first image: there may be nothing to list
+        if (o.shard.given)
+            std::printf("%s, shard %llu of %llu: %llu images", o.out.c_str(), number(o.shard.number),
+                        number(o.shard.of), number(bar.done()));
+        else
+            std::printf("%s: %llu images", o.out.c_str(), number(generator::write_tables(root, o.preview, into)));
         std::printf(", %llu of them new, %.2f images/s\n", number(made), static_cast<double>(made) / bar.elapsed());
         if (!o.shard.given) std::fputs(generator::where_to_look(o).c_str(), stdout);
     }
-    if (is_stopped) {
+    if (stop_signal != 0 && bar.done() < work.size()) {
         std::fprintf(stderr, "Stopped; the same command continues from here.\n");
         return 128 + stop_signal;
     }

@@ -2,6 +2,8 @@
 // which take minutes.
 #include "pictures.hpp"
 
+#include <span>
+
 #include "../common/png_bytes.hpp"
 #include "draw.hpp"
 #include "image_files.hpp"
@@ -45,33 +47,29 @@ json parameters_of(const options& o, const plan& p, const rendered_image& d) {
 
 /// Replaces the library's name of an argument by the options that decide it, in recipe sonar by the columns.
 std::string with_option_names(std::string message, bool is_sonar) {
-    constexpr const char* columns[][2] = {{"side_scan.altitude", "altitude_m"},
-                                          {"side_scan.ping_spacing", "the ping spacing (track_m over size_px)"},
-                                          {"side_scan.range", "the range (first_range_m, chip_m)"},
-                                          {"side_scan.first_range", "first_range_m"},
-                                          {"pings in the horizontal beam", "pings in the beam (beam_rad, track_m)"}};
-    if (is_sonar) {
-        for (const auto& [from, to] : columns)
-            if (const std::size_t at = message.find(from); at != std::string::npos)
-                return message.replace(at, std::string_view(from).size(), to);
-        return message;
-    }
-    constexpr const char* names[][2] = {{"overhead.altitude", "--altitude"},
-                                        {"overhead.field_of_view", "the field of view (--chip over --altitude)"},
-                                        {"overhead.grazing", "--grazing"},
-                                        {"overhead.intensity", "--intensity"},
-                                        {"overhead.sky", "--sky"},
-                                        {"overhead.size", "--size"},
-                                        {"side_scan.altitude", "--altitude"},
-                                        {"side_scan.ping_spacing", "the ping spacing (--chip over --size)"},
-                                        {"side_scan.range", "the range (--distance, --altitude, --chip)"},
-                                        {"side_scan.first_range", "the range (--distance, --altitude, --chip)"},
-                                        {"pings in the horizontal beam", "pings in the beam (--beam, --chip, --size)"},
-                                        {"rays of a ping", "rays of a ping (--chip, --size)"},
-                                        {"seabed tiles", "tiles of the seabed (--chip, --size)"},
-                                        {"heightfield.spacing", "--heightmap-spacing"},
-                                        {"heightfield.", "--heightmap "}};
-    for (const auto& [from, to] : names)
+    using renamed = const char* const[2];
+    constexpr renamed columns[] = {{"side_scan.altitude", "altitude_m"},
+                                   {"side_scan.ping_spacing", "the ping spacing (track_m over size_px)"},
+                                   {"side_scan.range", "the range (first_range_m, chip_m)"},
+                                   {"side_scan.first_range", "first_range_m"},
+                                   {"pings in the horizontal beam", "pings in the beam (beam_rad, track_m)"}};
+    constexpr renamed names[] = {{"overhead.altitude", "--altitude"},
+                                 {"overhead.field_of_view", "the field of view (--chip over --altitude)"},
+                                 {"overhead.grazing", "--grazing"},
+                                 {"overhead.intensity", "--intensity"},
+                                 {"overhead.sky", "--sky"},
+                                 {"overhead.size", "--size"},
+                                 {"side_scan.altitude", "--altitude"},
+                                 {"side_scan.ping_spacing", "the ping spacing (--chip over --size)"},
+                                 {"side_scan.range", "the range (--distance, --altitude, --chip)"},
+                                 {"side_scan.first_range", "the range (--distance, --altitude, --chip)"},
+                                 {"pings in the horizontal beam", "pings in the beam (--beam, --chip, --size)"},
+                                 {"rays of a ping", "rays of a ping (--chip, --size)"},
+                                 {"seabed tiles", "tiles of the seabed (--chip, --size)"},
+                                 {"heightfield.spacing", "--heightmap-spacing"},
+                                 {"heightfield.", "--heightmap "}};
+    const std::span<renamed> all = is_sonar ? std::span<renamed>(columns) : std::span<renamed>(names);
+    for (const auto& [from, to] : all)
         if (const std::size_t at = message.find(from); at != std::string::npos)
             return message.replace(at, std::string_view(from).size(), to);
     return message;
@@ -121,13 +119,17 @@ void check_plan(const options& o, const shared_inputs& shared) {
     if (!o.table) return;
     options without = o;
     without.table = nullptr;
-    if (o.is_sonar()) return check_columns(o, columns_of_sonar_recipe(without));
-    const plan example = plan_image(without, 0, shared);
-    check_columns(o, {example.values, example.choices, class_names(o)});
-    // Some columns have a meaning, and their values are checked, in some modes and on some seabeds only.
+    if (o.is_sonar()) {
+        check_columns(o, columns_of_sonar_recipe(without));
+    } else {
+        const plan example = plan_image(without, 0, shared);
+        check_columns(o, {example.values, example.choices, class_names(o)});
+    }
     for (std::uint64_t i = 0; i < o.table->size() * views_of_each(o); i += views_of_each(o)) {
         const plan_row line = line_of_plan(o, i);
-        static_cast<void>(plan_image(with_line(o, line), image_id(o, i), view_of(o, i), shared, &line));
+        const options own = with_line(o, line);
+        // Some columns have a meaning, and their values are checked, in some modes and on some seabeds only.
+        if (!o.is_sonar()) static_cast<void>(plan_image(own, image_id(o, i), view_of(o, i), shared, &line));
     }
 }
 

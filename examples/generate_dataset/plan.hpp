@@ -21,9 +21,8 @@ struct plan {
     glm::dvec3 extents;               ///< length, width and height, metres
     double yaw, pitch, roll, burial;  ///< radians, share of the height
     double altitude, light, rig_yaw;  ///< metres, radians
-    double across,
-        along;  ///< of the target: shares of the width from the left, of the height from below (a sonar's: above)
-    double place_x, place_y;  ///< world position of the camera or of the sonar's target, metres
+    double across, along;             ///< of the target: shares from the left, and from below (a sonar's: from above)
+    double place_x, place_y;          ///< world position of the camera or of the sonar's target, metres
     std::uint32_t seabed_seed, noise_seed;
     double relief, wavelength, direction;  ///< of the seabed: in [0, 1], metres, radians
     double distance, beam;                 ///< of the target from the track, in altitudes; beamwidth, radians

@@ -1443,10 +1443,10 @@ INSONIFY_ARITHMETIC_END
 // Run-time dispatch: a kernel is written once over a lane count and compiled for several instruction sets.
 //
 // A kernel is a struct with `template <int N> INSONIFY_INLINE void run() const`, where N is the number of 32-bit values
-// that it processes at a time. Its arithmetic is the same in every lane at every N, and
-// products are never fused with sums, so all levels give the same bytes; N = 1 is scalar code, compiled where
-// INSONIFY_SIMD is 0. Kernels that gain more than a tenth from AVX-512 declare `static constexpr int avx512_lanes =
-// 16`; the others have no copy for it, since each costs compile time.
+// that it processes at a time. Its arithmetic is the same in every lane at every N, and products are never fused with
+// sums, so all levels give the same bytes; N = 1 is scalar code, compiled where INSONIFY_SIMD is 0. Kernels that gain
+// more than a tenth from AVX-512 declare `static constexpr int avx512_lanes = 16`; the others have no copy for it,
+// since each costs compile time.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -3323,8 +3323,8 @@ struct draw_kernel {
     }
 };
 
-/// Buffer for the draws of a run. Up to 3 more are written before it, the rest of its first block, and up to 60 after
-/// it, which fill the last lanes.
+/// Buffer for the draws of a run, up to 3 before it, the rest of its first block, and up to 63 after it, which fill the
+/// last lanes.
 using draw_buffer = float[run_length + 64];
 
 /// Writes independent draws, one for each pixel and `field`, and returns the first; they lie in `buffer`.
@@ -11243,11 +11243,11 @@ INSONIFY_FUNCTION image<std::uint8_t> target_mask(const labels& l, std::uint16_t
 INSONIFY_FUNCTION image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance) {
     detail::require_sizes(l, l.shadow.width(), l.shadow.height(), "that of labels.shadow");
     image<std::uint8_t> mask(l.shadow.width(), l.shadow.height());
-    for (std::size_t i = 0; i < mask.size(); ++i) {
-        const bool is_bottom = l.seabed.pixels()[i] != labels::no_seabed || instance != labels::is_lit;
-        const bool shows_target = l.instance.pixels()[i] != labels::no_instance;
-        mask.pixels()[i] = l.shadow.pixels()[i] == instance && is_bottom && !shows_target ? 255 : 0;
-    }
+    const auto is_shown = [&](std::size_t i) {
+        if (l.instance.pixels()[i] != labels::no_instance || l.shadow.pixels()[i] != instance) return false;
+        return instance != labels::is_lit || l.seabed.pixels()[i] != labels::no_seabed;
+    };
+    for (std::size_t i = 0; i < mask.size(); ++i) mask.pixels()[i] = is_shown(i) ? 255 : 0;
     return mask;
 }
 
@@ -11506,6 +11506,12 @@ struct frame {
 };
 
 namespace detail::inline INSONIFY_FLAGS {
+
+/// @throws invalid_input for rows that are not pings, or that show both sides
+inline void require_one_side(const ping_numbers& rows, const std::string& name) {
+    require(rows.step != 0, name + ".step", rows.step, "1 or -1, as of a recording");
+    require(rows.port_columns == 0, name + ".port_columns", rows.port_columns, "0, as of a recording of one side");
+}
 
 /// Calls `fn` with the pictures of all frames, then, if they have labels, with each of their images of labels.
 template <class Fn, class... Frames>
@@ -17608,8 +17614,8 @@ inline bool is_far_from_origin(const bounding_box& box) {
     return false;
 }
 
-/// Transforms normals: cofactors over the power of two that is their size, so that the lengths of normals, on which
-/// it depends whether they are usable, do not shrink with the pose's scale.
+/// Transforms normals: the cofactors over a power of two near their size. Very short normals count as missing, and must
+/// not be short because the pose scales the mesh.
 inline glm::mat3 normal_matrix(const glm::dmat3& linear) {
     glm::dmat3 areas = numeric::cofactors(linear);
     double square = 0;
@@ -18288,8 +18294,12 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
     detail::require(where.width >= 2, "grid.width", where.width, "at least 2");
     detail::require(where.height >= 2, "grid.height", where.height, "at least 2");
     detail::require_positive_metres("grid.spacing", where.spacing);
+    const glm::dvec2 origin = where.origin + where.spacing * glm::dvec2(where.first);
+    detail::require_position("first vertex of the grid", origin);
+    detail::require_position("last vertex of the grid",
+                             origin + where.spacing * glm::dvec2(where.width - 1, where.height - 1));
     heightfield result{.heights = image<float>(where.width, where.height, uninitialized, memory),
-                       .origin = where.origin + where.spacing * glm::dvec2(where.first),
+                       .origin = origin,
                        .spacing = where.spacing};
     const std::vector<type_properties> legend = legend_of(source);
     for (const type_properties& t : legend)
@@ -18298,9 +18308,6 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
         result.fallback = *only;
     else
         result.types = image<type>(where.width, where.height, uninitialized, memory);
-    validate(result);
-    detail::require_position("last vertex of the grid",
-                             result.origin + result.spacing * glm::dvec2(where.width - 1, where.height - 1));
 
     const auto prepared = prepare(source);
     const detail::known_labels known(legend);
@@ -19595,11 +19602,10 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     if constexpr (requires { found.shadow.largest; })
         many_texels = (std::min)(many_texels, static_cast<double>(found.shadow.largest) / longer);
     const double most = (std::min)(how.finest, pixel / detail::min_cell(view));
-    double chosen = most, least_excess = std::numeric_limits<double>::infinity();
+    double cells = 0, chosen = most, least_excess = std::numeric_limits<double>::infinity();
     bool is_enough = false;
-    for (double cells = 0, next = (std::min)(1.0 / 16, most); cells < most && !is_enough;
-         next = (std::min)(2 * next, most)) {
-        cells = next;
+    do {
+        cells = (std::min)((std::max)(2 * cells, 1.0 / 16), most);
         const errors all = errors_of(cells, many_texels);
         is_enough = is_within(all, usable);
         const double excess = (std::max)((std::max)(all.shadow_edge / usable.shadow_edge, all.height / usable.height),
@@ -19607,7 +19613,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         if (!is_enough && excess >= least_excess) continue;
         least_excess = excess;
         chosen = cells;
-    }
+    } while (!is_enough && cells < most);
     const double fewer = chosen * 0.70710678118654752;
     if (is_enough && is_within(errors_of(fewer, many_texels), usable)) chosen = fewer;
 
@@ -24935,8 +24941,8 @@ class sonar_equation {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/detail/equation_interface.hpp ------------------------------------
-// Virtual interface of sonar equations, so that tracing is compiled once for all lists of parts. Its
-// functions are called once per ray of a fan, or once per bin and altitude, never per echo.
+// Virtual interface of sonar equations, so that tracing is compiled once for all lists of parts. Its functions are
+// called once per ray of a fan, or once per bin and altitude, never per echo.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -27494,7 +27500,6 @@ inline void require_within_reach(const ping& p, const std::string& name) {
 template <across_track Axis, class PingOfRow>
 void apply_tone(frame<labels>& r, const PingOfRow& ping_of_row, const side_scan_rig<Axis>& rig, const bottom_tone& tone,
                 executor_ref ex) {
-    require(r.rows.port_columns == 0, "rows.port_columns", r.rows.port_columns, "0, as of a recording of one side");
     require(r.rows.side == rig.side, "rows.side", static_cast<int>(r.rows.side), "the side of the rig");
     require_equal("rig.bins", rig.bins, r.image.width(), "the recording's width");
     require_sizes(r.labels, r.image.width(), r.image.height(), "that of the image");
@@ -27542,7 +27547,7 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
-    detail::require(r.rows.step != 0, "rows.step", r.rows.step, "1 or -1, as of a recording");
+    detail::require_one_side(r.rows, "rows");
     const auto ping_of_row = [&](int y) {
         const std::int64_t number = r.rows.first + std::int64_t{r.rows.step} * y;
         detail::require_range("rows.first", number, -(std::int64_t{1} << 31), (std::int64_t{1} << 31) - 1,
@@ -27564,7 +27569,7 @@ template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, std::span<const ping> track, const side_scan_rig<Axis>& rig,
                         const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
-    detail::require(r.rows.step != 0, "rows.step", r.rows.step, "1 or -1, as of a recording");
+    detail::require_one_side(r.rows, "rows");
     detail::require_equal("track.size()", track.size(), static_cast<std::size_t>(r.image.height()),
                           "the number of the recording's rows");
     for (std::size_t i = 0; i < track.size(); ++i)
@@ -28064,9 +28069,7 @@ frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from,
     validate(from), validate(to);
     const int rows = slant.image.height(), bins = slant.image.width();
     detail::require_equal("from.bins", from.bins, bins, "the recording's width");
-    detail::require(slant.rows.step != 0, "slant.rows.step", slant.rows.step, "1 or -1, as of a recording");
-    detail::require(slant.rows.port_columns == 0, "slant.rows.port_columns", slant.rows.port_columns,
-                    "0, as of a recording of one side");
+    detail::require_one_side(slant.rows, "slant.rows");
     if constexpr (std::is_same_v<Labels, labels>) detail::require_sizes(slant.labels, bins, rows, "that of the image");
     detail::require(altitudes.empty() || altitudes.size() == static_cast<std::size_t>(rows), "altitudes.size()",
                     altitudes.size(), "0 or one per row");

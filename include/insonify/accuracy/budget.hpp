@@ -193,11 +193,10 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     if constexpr (requires { found.shadow.largest; })
         many_texels = (std::min)(many_texels, static_cast<double>(found.shadow.largest) / longer);
     const double most = (std::min)(how.finest, pixel / detail::min_cell(view));
-    double chosen = most, least_excess = std::numeric_limits<double>::infinity();
+    double cells = 0, chosen = most, least_excess = std::numeric_limits<double>::infinity();
     bool is_enough = false;
-    for (double cells = 0, next = (std::min)(1.0 / 16, most); cells < most && !is_enough;
-         next = (std::min)(2 * next, most)) {
-        cells = next;
+    do {
+        cells = (std::min)((std::max)(2 * cells, 1.0 / 16), most);
         const errors all = errors_of(cells, many_texels);
         is_enough = is_within(all, usable);
         const double excess = (std::max)((std::max)(all.shadow_edge / usable.shadow_edge, all.height / usable.height),
@@ -205,7 +204,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         if (!is_enough && excess >= least_excess) continue;
         least_excess = excess;
         chosen = cells;
-    }
+    } while (!is_enough && cells < most);
     const double fewer = chosen * 0.70710678118654752;
     if (is_enough && is_within(errors_of(fewer, many_texels), usable)) chosen = fewer;
 

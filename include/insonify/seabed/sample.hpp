@@ -68,8 +68,12 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
     detail::require(where.width >= 2, "grid.width", where.width, "at least 2");
     detail::require(where.height >= 2, "grid.height", where.height, "at least 2");
     detail::require_positive_metres("grid.spacing", where.spacing);
+    const glm::dvec2 origin = where.origin + where.spacing * glm::dvec2(where.first);
+    detail::require_position("first vertex of the grid", origin);
+    detail::require_position("last vertex of the grid",
+                             origin + where.spacing * glm::dvec2(where.width - 1, where.height - 1));
     heightfield result{.heights = image<float>(where.width, where.height, uninitialized, memory),
-                       .origin = where.origin + where.spacing * glm::dvec2(where.first),
+                       .origin = origin,
                        .spacing = where.spacing};
     const std::vector<type_properties> legend = legend_of(source);
     for (const type_properties& t : legend)
@@ -78,9 +82,6 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
         result.fallback = *only;
     else
         result.types = image<type>(where.width, where.height, uninitialized, memory);
-    validate(result);
-    detail::require_position("last vertex of the grid",
-                             result.origin + result.spacing * glm::dvec2(where.width - 1, where.height - 1));
 
     const auto prepared = prepare(source);
     const detail::known_labels known(legend);

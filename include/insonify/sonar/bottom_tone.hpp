@@ -116,7 +116,6 @@ inline void require_within_reach(const ping& p, const std::string& name) {
 template <across_track Axis, class PingOfRow>
 void apply_tone(frame<labels>& r, const PingOfRow& ping_of_row, const side_scan_rig<Axis>& rig, const bottom_tone& tone,
                 executor_ref ex) {
-    require(r.rows.port_columns == 0, "rows.port_columns", r.rows.port_columns, "0, as of a recording of one side");
     require(r.rows.side == rig.side, "rows.side", static_cast<int>(r.rows.side), "the side of the rig");
     require_equal("rig.bins", rig.bins, r.image.width(), "the recording's width");
     require_sizes(r.labels, r.image.width(), r.image.height(), "that of the image");
@@ -164,7 +163,7 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
-    detail::require(r.rows.step != 0, "rows.step", r.rows.step, "1 or -1, as of a recording");
+    detail::require_one_side(r.rows, "rows");
     const auto ping_of_row = [&](int y) {
         const std::int64_t number = r.rows.first + std::int64_t{r.rows.step} * y;
         detail::require_range("rows.first", number, -(std::int64_t{1} << 31), (std::int64_t{1} << 31) - 1,
@@ -186,7 +185,7 @@ template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, std::span<const ping> track, const side_scan_rig<Axis>& rig,
                         const bottom_tone& tone, E&& ex = {}) {
     validate(rig);
-    detail::require(r.rows.step != 0, "rows.step", r.rows.step, "1 or -1, as of a recording");
+    detail::require_one_side(r.rows, "rows");
     detail::require_equal("track.size()", track.size(), static_cast<std::size_t>(r.image.height()),
                           "the number of the recording's rows");
     for (std::size_t i = 0; i < track.size(); ++i)

@@ -6,6 +6,8 @@
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/side_scan/side_scan.hpp>
 
+#include <string>
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
@@ -40,6 +42,12 @@ struct frame {
 };
 
 namespace detail::inline INSONIFY_FLAGS {
+
+/// @throws invalid_input for rows that are not pings, or that show both sides
+inline void require_one_side(const ping_numbers& rows, const std::string& name) {
+    require(rows.step != 0, name + ".step", rows.step, "1 or -1, as of a recording");
+    require(rows.port_columns == 0, name + ".port_columns", rows.port_columns, "0, as of a recording of one side");
+}
 
 /// Calls `fn` with the pictures of all frames, then, if they have labels, with each of their images of labels.
 template <class Fn, class... Frames>

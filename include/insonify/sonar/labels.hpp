@@ -121,11 +121,11 @@ INSONIFY_FUNCTION image<std::uint8_t> target_mask(const labels& l, std::uint16_t
 INSONIFY_FUNCTION image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance) {
     detail::require_sizes(l, l.shadow.width(), l.shadow.height(), "that of labels.shadow");
     image<std::uint8_t> mask(l.shadow.width(), l.shadow.height());
-    for (std::size_t i = 0; i < mask.size(); ++i) {
-        const bool is_bottom = l.seabed.pixels()[i] != labels::no_seabed || instance != labels::is_lit;
-        const bool shows_target = l.instance.pixels()[i] != labels::no_instance;
-        mask.pixels()[i] = l.shadow.pixels()[i] == instance && is_bottom && !shows_target ? 255 : 0;
-    }
+    const auto is_shown = [&](std::size_t i) {
+        if (l.instance.pixels()[i] != labels::no_instance || l.shadow.pixels()[i] != instance) return false;
+        return instance != labels::is_lit || l.seabed.pixels()[i] != labels::no_seabed;
+    };
+    for (std::size_t i = 0; i < mask.size(); ++i) mask.pixels()[i] = is_shown(i) ? 255 : 0;
     return mask;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "../../catch.hpp"
+#include "../../larger.hpp"
 #include "pixel_space.hpp"
 
 namespace in = insonify;
@@ -74,8 +75,9 @@ TEST_CASE("Clipped triangles keep their varyings, weights and depths") {
             glm::dvec3 mean(0);
             for (int i = 0; i < 3; ++i)
                 mean += static_cast<double>(f.weights[i]) * glm::dvec3(m.positions[static_cast<std::size_t>(i)]);
-            worst = (std::max)({worst, std::abs(off.x) / y, std::abs(off.y) / y, std::abs(mean.y - hit.y) / y,
-                                std::abs(static_cast<double>(f.depth) - (y - 0.5) * 1.25 / y)});
+            for (const double error :
+                 {off.x / y, off.y / y, (mean.y - hit.y) / y, static_cast<double>(f.depth) - (y - 0.5) * 1.25 / y})
+                worst = larger(worst, std::abs(error));
         },
         in::framebuffer<void>{depth}, {.load = in::depth_load::clear, .subpixel_bits = 16});
     CHECK(stats.clipped == 1);

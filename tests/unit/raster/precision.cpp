@@ -245,8 +245,8 @@ TEST_CASE("Depths of level ground stay in order down to a grazing angle of 0.006
                  ++seen;
                  // z / w = 0.01 / y, and where a pixel's ray meets the ground: y = 1 / (its slope).
                  const double slope = (f.y + 0.5) / 4096 - 1;
-                 worst = (std::max)({worst, std::abs(static_cast<double>(f.depth) / (0.01 * slope) - 1),
-                                     std::abs(static_cast<double>(f.varyings.y) * slope - 1)});
+                 worst = larger(worst, std::abs(static_cast<double>(f.depth) / (0.01 * slope) - 1));
+                 worst = larger(worst, std::abs(static_cast<double>(f.varyings.y) * slope - 1));
              },
              in::framebuffer<void>{depth},
              {.keep = in::keep_depth::larger, .load = in::depth_load::clear, .subpixel_bits = 16});

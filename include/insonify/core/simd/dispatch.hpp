@@ -1,10 +1,10 @@
 // Run-time dispatch: a kernel is written once over a lane count and compiled for several instruction sets.
 //
 // A kernel is a struct with `template <int N> INSONIFY_INLINE void run() const`, where N is the number of 32-bit values
-// that it processes at a time. Its arithmetic is the same in every lane at every N, and
-// products are never fused with sums, so all levels give the same bytes; N = 1 is scalar code, compiled where
-// INSONIFY_SIMD is 0. Kernels that gain more than a tenth from AVX-512 declare `static constexpr int avx512_lanes =
-// 16`; the others have no copy for it, since each costs compile time.
+// that it processes at a time. Its arithmetic is the same in every lane at every N, and products are never fused with
+// sums, so all levels give the same bytes; N = 1 is scalar code, compiled where INSONIFY_SIMD is 0. Kernels that gain
+// more than a tenth from AVX-512 declare `static constexpr int avx512_lanes = 16`; the others have no copy for it,
+// since each costs compile time.
 #pragma once
 
 #include <insonify/core/error.hpp>

@@ -173,8 +173,8 @@ struct draw_kernel {
     }
 };
 
-/// Buffer for the draws of a run. Up to 3 more are written before it, the rest of its first block, and up to 60 after
-/// it, which fill the last lanes.
+/// Buffer for the draws of a run, up to 3 before it, the rest of its first block, and up to 63 after it, which fill the
+/// last lanes.
 using draw_buffer = float[run_length + 64];
 
 /// Writes independent draws, one for each pixel and `field`, and returns the first; they lie in `buffer`.

@@ -27,9 +27,7 @@ frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from,
     validate(from), validate(to);
     const int rows = slant.image.height(), bins = slant.image.width();
     detail::require_equal("from.bins", from.bins, bins, "the recording's width");
-    detail::require(slant.rows.step != 0, "slant.rows.step", slant.rows.step, "1 or -1, as of a recording");
-    detail::require(slant.rows.port_columns == 0, "slant.rows.port_columns", slant.rows.port_columns,
-                    "0, as of a recording of one side");
+    detail::require_one_side(slant.rows, "slant.rows");
     if constexpr (std::is_same_v<Labels, labels>) detail::require_sizes(slant.labels, bins, rows, "that of the image");
     detail::require(altitudes.empty() || altitudes.size() == static_cast<std::size_t>(rows), "altitudes.size()",
                     altitudes.size(), "0 or one per row");

@@ -44,8 +44,8 @@ inline bool is_far_from_origin(const bounding_box& box) {
     return false;
 }
 
-/// Transforms normals: cofactors over the power of two that is their size, so that the lengths of normals, on which
-/// it depends whether they are usable, do not shrink with the pose's scale.
+/// Transforms normals: the cofactors over a power of two near their size. Very short normals count as missing, and must
+/// not be short because the pose scales the mesh.
 inline glm::mat3 normal_matrix(const glm::dmat3& linear) {
     glm::dmat3 areas = numeric::cofactors(linear);
     double square = 0;

@@ -1,5 +1,5 @@
-// Virtual interface of sonar equations, so that tracing is compiled once for all lists of parts. Its
-// functions are called once per ray of a fan, or once per bin and altitude, never per echo.
+// Virtual interface of sonar equations, so that tracing is compiled once for all lists of parts. Its functions are
+// called once per ray of a fan, or once per bin and altitude, never per echo.
 #pragma once
 
 #include <insonify/sonar/side_scan/sonar_equation.hpp>
