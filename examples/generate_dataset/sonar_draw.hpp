@@ -90,7 +90,7 @@ inline void scatter_about(const placed_object& wreck, const sonar_plan& p, in::r
 }
 
 /// Varies the reflectivity over targets, as growth, holes and loose plates do.
-inline void grow(in::frame<in::labels>& recording, const sonar_plan& p, double pixel) {
+inline void grow(in::frame<in::labels>& recording, const sonar_plan& p, double pixel, double ping) {
     const in::bottom_tone growth{.drift = static_cast<float>(p.growth),
                                  .drift_length = static_cast<float>(p.growth_length),
                                  .octaves = 2,
@@ -99,7 +99,7 @@ inline void grow(in::frame<in::labels>& recording, const sonar_plan& p, double p
         for (int x = 0; x < recording.image.width(); ++x)
             if (recording.labels.instance(x, y) != 0)
                 recording.image(x, y) *=
-                    static_cast<float>(in::from_decibels(in::level_of(growth, {x * pixel, y * pixel})));
+                    static_cast<float>(in::from_decibels(in::level_of(growth, {x * pixel, y * ping})));
 }
 
 template <in::across_track Axis>
@@ -192,7 +192,7 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
         out.geometry = geometry_of(rig, scene.targets.front(), recording.labels.targets.front());
 
     recording = in::with_tone(std::move(recording), rig, p.tone, ex);
-    grow(recording, p, pixel);
+    grow(recording, p, pixel, ping);
     in::water_column water = p.water;
     water.first_range = static_cast<float>(first);
     water.bin = static_cast<float>(rig.bin());

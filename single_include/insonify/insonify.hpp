@@ -8149,16 +8149,16 @@ struct sediment_form {
 struct sediment_facts {
     type label;
     std::string_view name;
-    float phi;       ///< mean grain size, -log2 of millimetres
-    float strength;  ///< w2 of the roughness spectrum W(K) = w2 (K cm)^-3.25, cm^4
-    float level;     ///< of Lambert's law, decibels: S_b = level + 20 log10(sin grazing)
-    float texture;   ///< shape of the K-distribution, 0 for none
-    float steady;    ///< power of a steady echo over that of the diffuse ones
+    float phi;                ///< mean grain size, -log2 of millimetres
+    float spectral_strength;  ///< w2 of the roughness spectrum W(K) = w2 (K cm)^-3.25, cm^4
+    float level;              ///< of Lambert's law, decibels: S_b = level + 20 log10(sin grazing)
+    float texture;            ///< shape of the K-distribution, 0 for none
+    float steady;             ///< power of a steady echo over that of the diffuse ones
     sediment_form form{};
 
     /// Root mean square height of what is shorter than a metre, metres. Its square is 2 pi w2 K^-1.25 / 1.25, cm^2, at
     /// K = 2 pi / 100 cm.
-    INSONIFY_MEMBER float rms() const { return 0.12641f * numeric::square_root(strength); }
+    INSONIFY_MEMBER float rms() const { return 0.12641f * numeric::square_root(spectral_strength); }
     /// The backscattering strength at normal incidence by Lambert's law, as a factor.
     INSONIFY_MEMBER constexpr float strength_at_nadir() const {
         return static_cast<float>(numeric::pow(10, static_cast<double>(level) / 10));
@@ -15938,8 +15938,8 @@ class light_rays {
     glm::dvec3 toward(const glm::dvec3& p) const { return is_near_ ? source_ - p : source_; }
 
     /// Whether the triangle (a, b, c) blocks the light of `from`.
-    bool are_blocked(const glm::dvec3& corner_a, const glm::dvec3& corner_b, const glm::dvec3& corner_c,
-                     const glm::dvec3& from) const {
+    bool blocks(const glm::dvec3& corner_a, const glm::dvec3& corner_b, const glm::dvec3& corner_c,
+                const glm::dvec3& from) const {
         const glm::dvec3 to_light = toward(from), a = corner_a - from, b = corner_b - from, c = corner_c - from;
         // Corners sheared along the ray, in the two axes of its smaller components. A corner that triangles share is
         // rounded alike for each.
@@ -17027,7 +17027,7 @@ class exact_occlusion {
         const caster& c = casters_[number];
         const glm::uvec3& t = c.mesh.triangles[triangle];
         const auto corner = [&](int j) { return transform_point(c.placement, glm::dvec3(c.mesh.positions[t[j]])); };
-        return rays_.are_blocked(corner(0), corner(1), corner(2), p);
+        return rays_.blocks(corner(0), corner(1), corner(2), p);
     }
     /// Grids, and the plane across the rays of parallel light.
     template <executor E>
@@ -25096,8 +25096,8 @@ struct record_options {
     Law law{};
     Equation equation{};
     /// Metres between the vertices at which the seabed is sampled, and an upper bound of the distance between rays on
-    /// level ground; 0: the longer of a bin and `ping_spacing`, at most a fiftieth of the altitude and at least
-    /// range / 2048. Measured at 5 m altitude with 2048 bins over 40 m, against cells of 5 mm:
+    /// level ground, at least 2^-20 of the range; 0: the longer of a bin and `ping_spacing`, at most a fiftieth of the
+    /// altitude and at least range / 2048. Measured at 5 m altitude with 2048 bins over 40 m, against cells of 5 mm:
     /// cells of 2, 4 and 8 cm take 2, 1 and 0.6 times the default's time; shadow labels differ in 0.9, 1.5 and 3.4 % of
     /// the bins on ripples and in 3.6, 5.3 and 11 % on rock, amplitudes by 7, 10 and 19 % (rms) on ripples.
     double cell = 0;
@@ -26757,6 +26757,8 @@ class recorder {
         require(equation_.pulse_length() <= recorded + 0x1p-23 * static_cast<double>(window.range), "pulse.length",
                 equation_.pulse_length(), "at most the metres of range that are recorded");
         out_.rows.side = window.facing;
+        require(options.cell == 0 || options.cell >= 0x1p-20 * static_cast<double>(window.range), "cell", options.cell,
+                "0, or at least 2^-20 of the range");
         out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(window));
         targets_ = sliced_targets(s);
         const auto height = static_cast<int>(track.size());
@@ -27664,9 +27666,9 @@ inline namespace INSONIFY_FLAGS {
 inline const instrument& instrument_named(std::string_view name) {
     for (const instrument& i : instruments::all)
         if (i.name == name) return i;
-    detail::raise(invalid_input("instrument is '" + std::string(name) +
-                                "', expected side_scan_450, side_scan_600, side_scan_900, side_scan_1800 or "
-                                "synthetic_aperture"));
+    std::string known;
+    for (const instrument& i : instruments::all) known += (known.empty() ? "" : ", ") + std::string(i.name);
+    detail::raise(invalid_input("instrument is '" + std::string(name) + "', expected one of " + known));
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -27769,8 +27771,8 @@ class scene_occlusion {
         const glm::dvec3 size = within.box.size();
         detail::require(!within.box.empty() && numeric::is_finite(size.x + size.y + size.z),
                         "occlusion_bounds.box.size()", size.x + size.y + size.z, "that of a box around the points");
-        detail::require_not_negative("occlusion_bounds.cell", within.cell);
-        detail::require_not_negative("occlusion_bounds.reach", within.reach);
+        seabed::detail::require_metres("occlusion_bounds.cell", within.cell);
+        detail::require_range("occlusion_bounds.reach", within.reach, 0, 1e6, "0 to 10^6");
         seabed::detail::require_position("occlusion_bounds.box.lower", glm::dvec2(within.box.lower));
         seabed::detail::require_position("occlusion_bounds.box.upper", glm::dvec2(within.box.upper));
     }

@@ -123,16 +123,16 @@ struct sediment_form {
 struct sediment_facts {
     type label;
     std::string_view name;
-    float phi;       ///< mean grain size, -log2 of millimetres
-    float strength;  ///< w2 of the roughness spectrum W(K) = w2 (K cm)^-3.25, cm^4
-    float level;     ///< of Lambert's law, decibels: S_b = level + 20 log10(sin grazing)
-    float texture;   ///< shape of the K-distribution, 0 for none
-    float steady;    ///< power of a steady echo over that of the diffuse ones
+    float phi;                ///< mean grain size, -log2 of millimetres
+    float spectral_strength;  ///< w2 of the roughness spectrum W(K) = w2 (K cm)^-3.25, cm^4
+    float level;              ///< of Lambert's law, decibels: S_b = level + 20 log10(sin grazing)
+    float texture;            ///< shape of the K-distribution, 0 for none
+    float steady;             ///< power of a steady echo over that of the diffuse ones
     sediment_form form{};
 
     /// Root mean square height of what is shorter than a metre, metres. Its square is 2 pi w2 K^-1.25 / 1.25, cm^2, at
     /// K = 2 pi / 100 cm.
-    INSONIFY_MEMBER float rms() const { return 0.12641f * numeric::square_root(strength); }
+    INSONIFY_MEMBER float rms() const { return 0.12641f * numeric::square_root(spectral_strength); }
     /// The backscattering strength at normal incidence by Lambert's law, as a factor.
     INSONIFY_MEMBER constexpr float strength_at_nadir() const {
         return static_cast<float>(numeric::pow(10, static_cast<double>(level) / 10));

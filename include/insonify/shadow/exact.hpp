@@ -168,7 +168,7 @@ class exact_occlusion {
         const caster& c = casters_[number];
         const glm::uvec3& t = c.mesh.triangles[triangle];
         const auto corner = [&](int j) { return transform_point(c.placement, glm::dvec3(c.mesh.positions[t[j]])); };
-        return rays_.are_blocked(corner(0), corner(1), corner(2), p);
+        return rays_.blocks(corner(0), corner(1), corner(2), p);
     }
     /// Grids, and the plane across the rays of parallel light.
     template <executor E>

@@ -81,9 +81,9 @@ inline namespace INSONIFY_FLAGS {
 inline const instrument& instrument_named(std::string_view name) {
     for (const instrument& i : instruments::all)
         if (i.name == name) return i;
-    detail::raise(invalid_input("instrument is '" + std::string(name) +
-                                "', expected side_scan_450, side_scan_600, side_scan_900, side_scan_1800 or "
-                                "synthetic_aperture"));
+    std::string known;
+    for (const instrument& i : instruments::all) known += (known.empty() ? "" : ", ") + std::string(i.name);
+    detail::raise(invalid_input("instrument is '" + std::string(name) + "', expected one of " + known));
 }
 
 }  // namespace INSONIFY_FLAGS

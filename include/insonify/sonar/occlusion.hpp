@@ -100,8 +100,8 @@ class scene_occlusion {
         const glm::dvec3 size = within.box.size();
         detail::require(!within.box.empty() && numeric::is_finite(size.x + size.y + size.z),
                         "occlusion_bounds.box.size()", size.x + size.y + size.z, "that of a box around the points");
-        detail::require_not_negative("occlusion_bounds.cell", within.cell);
-        detail::require_not_negative("occlusion_bounds.reach", within.reach);
+        seabed::detail::require_metres("occlusion_bounds.cell", within.cell);
+        detail::require_range("occlusion_bounds.reach", within.reach, 0, 1e6, "0 to 10^6");
         seabed::detail::require_position("occlusion_bounds.box.lower", glm::dvec2(within.box.lower));
         seabed::detail::require_position("occlusion_bounds.box.upper", glm::dvec2(within.box.upper));
     }

@@ -127,8 +127,8 @@ TEST_CASE("Few points of a seabed need a triangle test, and all agree with rays"
                         const glm::dvec3 away = bottom.surface.corner(triangle, 0) - p;
                         const shadow::detail::light_rays rays(light, 2);
                         return triangle != own_triangle && glm::dot(away, away) < 100 &&
-                               rays.are_blocked(bottom.surface.corner(triangle, 0), bottom.surface.corner(triangle, 1),
-                                                bottom.surface.corner(triangle, 2), p);
+                               rays.blocks(bottom.surface.corner(triangle, 0), bottom.surface.corner(triangle, 1),
+                                           bottom.surface.corner(triangle, 2), p);
                     };
                 };
                 wrong += caster.blocks_own(own[i], decide_among(own[i], own.triangle(i))) !=

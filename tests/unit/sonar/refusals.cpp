@@ -198,9 +198,14 @@ TEST_CASE("Options of pictures and recordings are refused by name") {
             },
             {FIELD(cell, below_0), FIELD(reach, below_0), FIELD(subpixel_bits, outside_whole(4, 16)),
              FIELD(tile, {0, -1, 4, 24, 512})});
-    check_fields<in::record_options<>>(
-        "", {}, [&](const in::record_options<>& o) { (void)in::render(small_scene(), small_side_scan, o); },
-        {FIELD(cell, below_0)});
+    for (const bool has_bottom : {true, false})
+        check_fields<in::record_options<>>("", {},
+                                           [&](const in::record_options<>& o) {
+                                               in::scene s = small_scene();
+                                               if (!has_bottom) s.seabed = in::seabed::none{};
+                                               (void)in::render(s, small_side_scan, o);
+                                           },
+                                           {FIELD(cell, {nan_value, infinity, -infinity, -1, 1e-300, 1e-9, 1e-6})});
 }
 
 TEST_CASE("Shadow policies refuse each field by name") {
@@ -234,8 +239,8 @@ TEST_CASE("Lights and the bounds of occlusion are refused by name") {
         [](const in::occlusion_bounds& b) { (void)in::occlusion_of(small_scene(), in::light_of(small_rig), b); },
         {{"box", [](auto& o, double v) { o.box.lower.x = v; }, not_finite},
          {"box", [](auto& o, double v) { o.box.upper.z = v; }, not_finite},
-         FIELD(cell, below_0),
-         FIELD(reach, below_0)});
+         FIELD(cell, {nan_value, infinity, -infinity, -1, 1e-300, 1e-9, 1e300}),
+         FIELD(reach, {nan_value, infinity, -infinity, -1, 1e300})});
 }
 
 TEST_CASE("with_speckle() refuses each field of a speckle by name") {

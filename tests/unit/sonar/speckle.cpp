@@ -169,18 +169,20 @@ TEST_CASE("The speckle of a ping does not depend on the order of recording or th
     }
 }
 
-TEST_CASE("Each type of seabed has its own speckle law; zero intensity stays zero") {
-    in::seabed_speckle s{.along_track = 0, .across_track = 0, .texture_length = 1};
-    s.bottom = {{{1, 0, 0}, {4, 0, 0}, {1, 0, 10}, {1, 1, 0}}};
-    const double expected[] = {1, 0.25, 21.0 / 121, 3};
-    in::image<float> mean(4 * 200, 400, 2.0f);
-    in::image<std::uint8_t> types(4 * 200, 400);
+TEST_CASE("Each type of seabed, and what has none, has its own speckle law; zero intensity stays zero") {
+    in::seabed_speckle s{.elsewhere = {16, 0, 0}, .along_track = 0, .across_track = 0, .texture_length = 1};
+    s.bottom = {{{1, 0, 0}, {4, 0, 0}, {1, 0, 10}, {1, 1, 0}, {in::looks_by_seabed_model}}};
+    const std::uint8_t labels[] = {0, 1, 2, 3, 4, in::labels::no_seabed};
+    const double expected[] = {1, 0.25, 21.0 / 121, 3, 1.0 / 16, 1.0 / 16};
+    in::image<float> mean(6 * 200, 400, 2.0f);
+    in::image<std::uint8_t> types(6 * 200, 400);
     for (int y = 0; y < 400; ++y)
-        for (int x = 0; x < 800; ++x) types(x, y) = static_cast<std::uint8_t>(x / 200);
+        for (int x = 0; x < 1200; ++x) types(x, y) = labels[x / 200];
     mean(5, 5) = 0;
     const auto picture = in::with_speckle(mean.view(), types.view(), s, {});
     CHECK(picture(5, 5) == 0);
-    for (int t = 0; t < 4; ++t) {
+    for (int t = 0; t < 6; ++t) {
+        INFO("label " << int{labels[t]});
         const auto [level, index] = of(in::image<float>(picture.view().part(200 * t, 0, 200, 400)));
         CHECK(level == Approx(2).epsilon(0.03));
         CHECK(index == Approx(expected[t]).epsilon(0.08));

@@ -42,8 +42,8 @@ class light_rays {
     glm::dvec3 toward(const glm::dvec3& p) const { return is_near_ ? source_ - p : source_; }
 
     /// Whether the triangle (a, b, c) blocks the light of `from`.
-    bool are_blocked(const glm::dvec3& corner_a, const glm::dvec3& corner_b, const glm::dvec3& corner_c,
-                     const glm::dvec3& from) const {
+    bool blocks(const glm::dvec3& corner_a, const glm::dvec3& corner_b, const glm::dvec3& corner_c,
+                const glm::dvec3& from) const {
         const glm::dvec3 to_light = toward(from), a = corner_a - from, b = corner_b - from, c = corner_c - from;
         // Corners sheared along the ray, in the two axes of its smaller components. A corner that triangles share is
         // rounded alike for each.
