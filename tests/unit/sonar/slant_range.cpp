@@ -311,7 +311,7 @@ TEST_CASE("Ranges below the altitude and pings below the seabed return nothing")
 }
 
 TEST_CASE("A recording of which all pings are below the seabed is refused (depths passed as heights)") {
-    for (const float altitude : {0.0f, -5.0f})
+    for (const double altitude : {0.0, -5.0})
         CHECK_THROWS_WITH(in::render(level_bottom(), one_ping(altitude, 9, 64)),
                           ContainsSubstring("altitude of the highest ping is " + in::detail::to_text(altitude) +
                                             ", expected above the seabed's lowest height, 0"));
