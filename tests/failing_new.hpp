@@ -14,11 +14,15 @@ namespace failing_new {
 inline std::atomic<long> calls{0};              ///< so far
 inline std::atomic<long> in_use{0};             ///< allocated and not freed
 inline std::atomic<long> fails_at{0};           ///< number of the call that fails; 0: none
+inline std::atomic<long> failed{0};             ///< calls that were made to fail
 inline std::atomic<bool> keeps_failing{false};  ///< whether all later calls fail, too
 
 inline void* allocate(std::size_t size, std::size_t alignment = alignof(std::max_align_t)) noexcept {
     const long number = ++calls, limit = fails_at;
-    if (limit > 0 && (keeps_failing ? number >= limit : number == limit)) return nullptr;
+    if (limit > 0 && (keeps_failing ? number >= limit : number == limit)) {
+        ++failed;
+        return nullptr;
+    }
     void* const memory = alignment > alignof(std::max_align_t)
                              ? std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment)
                              : std::malloc(size > 0 ? size : 1);
@@ -39,32 +43,34 @@ inline void release(void* memory) noexcept {
 /// Checks that `use` throws std::bad_alloc or returns its usual result, and leaks nothing.
 /// @returns the number of allocations that failed
 template <class Use>
-long in_turn(const Use& use) {
+long fail_each_allocation(const Use& use) {
     const auto expected = use();
-    long failed = 0;
+    long reached = 0;
     for (const bool all : {false, true})
         for (long at = 1;; ++at) {
             keeps_failing = all;
             const long before = in_use;
-            calls = 0;
+            calls = failed = 0;
             fails_at = at;
             bool is_right = true;
             try {
                 is_right = use() == expected;
             } catch (const std::bad_alloc&) {
+            } catch (...) {
+                fails_at = 0;  // the report of this exception allocates, too
+                throw;
             }
             fails_at = 0;
-            const bool was_reached = calls >= at;
             const long left = in_use - before;
             if (left != 0 || !is_right) {
                 INFO("allocation " << at << (all ? " and all later ones" : ""));
                 CHECK(left == 0);
                 CHECK(is_right);
             }
-            if (!was_reached) break;
-            ++failed;
+            if (failed == 0) break;
+            ++reached;
         }
-    return failed;
+    return reached;
 }
 
 }  // namespace failing_new

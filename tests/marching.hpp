@@ -1,6 +1,6 @@
 // An oracle for pictures of a seabed: a ray for each pixel down to it, and one from there to the light, marched in
-// double over heights sampled several times as finely as the picture. Shares nothing with the renderer but the
-// heightfield.
+// double over heights sampled several times as finely as the picture. Shares the heightfield and the size of a pixel
+// with the renderer.
 #pragma once
 
 #include <insonify/sonar/overhead/render.hpp>

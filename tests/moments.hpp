@@ -1,9 +1,14 @@
-// Moments and correlations of pictures, for tests of random textures.
+// Moments and correlations of pictures, and distances of samples from a law, for tests of random numbers.
 #pragma once
 
 #include <insonify/core/image.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
+
+#include "larger.hpp"
 
 namespace moments {
 
@@ -33,5 +38,22 @@ inline double correlation(const in::image<float>& a, const in::image<float>& b, 
     const double deviations = ma.mean * std::sqrt(ma.index) * mb.mean * std::sqrt(mb.index);
     return sum / ((a.width() - dx) * (a.height() - dy)) / deviations;
 }
+
+/// Kolmogorov and Smirnov's statistic: the largest distance between the distribution of samples and a cumulative one,
+/// times the root of their number. Samples of that law exceed x with a probability of 2 exp(-2 x^2).
+template <class Number, class Cumulative>
+double kolmogorov_smirnov(std::span<Number> samples, const Cumulative& cumulative) {
+    std::vector<double> sorted(samples.begin(), samples.end());
+    std::sort(sorted.begin(), sorted.end());
+    const auto count = static_cast<double>(sorted.size());
+    double distance = 0;
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        const double expected = cumulative(sorted[i]), before = static_cast<double>(i) / count;
+        distance = larger(distance, larger(std::abs(expected - before), std::abs(before + 1 / count - expected)));
+    }
+    return distance * std::sqrt(count);
+}
+inline constexpr double once_in_1000 = 1.95;  ///< this statistic exceeds it once in a thousand tests
+inline constexpr double once_in_100000 = 2.47;
 
 }  // namespace moments

@@ -4,4 +4,4 @@
 #include <limits>
 
 inline constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-inline constexpr float endless = std::numeric_limits<float>::infinity();
+inline constexpr float positive_infinity = std::numeric_limits<float>::infinity();

@@ -82,7 +82,8 @@ struct tally {
 
   private:
     double share_of(std::int64_t pixels) const {
-        return shown == 0 ? 0 : static_cast<double>(pixels) / static_cast<double>(shown);
+        // Of no pixels it is NaN, so that an empty picture is not a right one.
+        return static_cast<double>(pixels) / static_cast<double>(shown);
     }
 };
 

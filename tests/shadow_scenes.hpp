@@ -107,8 +107,9 @@ struct difference {
         either += d.either;
         return *this;
     }
-    double share() const { return pixels == 0 ? 0 : static_cast<double>(wrong) / static_cast<double>(pixels); }
-    double iou() const { return either == 0 ? 1 : static_cast<double>(both) / static_cast<double>(either); }
+    // NaN of no pixels, so that an empty picture is not a right one.
+    double share() const { return static_cast<double>(wrong) / static_cast<double>(pixels); }
+    double iou() const { return static_cast<double>(both) / static_cast<double>(either); }
 };
 
 }  // namespace shadow_scenes

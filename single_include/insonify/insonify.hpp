@@ -315,7 +315,7 @@ class block_pool {
         kept_ += size;
     }
 
-    /// Frees the kept blocks. Those in use are freed when they are deallocated.
+    /// Frees the kept blocks, and forgets the peak in use: blocks are kept again as if the first use began now.
     INSONIFY_TAGGED void release() noexcept {
         const guard lock(busy_);
         while (count_ > 0) free_oldest();
@@ -942,7 +942,8 @@ class image_view {
         detail::require(y >= 0 && y <= height_, "y", y, "0 to the height of the view");
         detail::require(width >= 0 && width <= width_ - x, "width", width, "0 to the view's width less x");
         detail::require(height >= 0 && height <= height_ - y, "height", height, "0 to the view's height less y");
-        return {data_ + y * stride_ + x, width, height, stride_};
+        const bool is_empty = width == 0 || height == 0;  // it may begin where no pixel is
+        return {is_empty ? data_ : data_ + y * stride_ + x, width, height, stride_};
     }
 
   private:
@@ -1276,7 +1277,9 @@ inline double tan(double radians) {
 
 /// x to the power y for x >= 0, relative error below (|y log x| + 2) * 3e-16; pow(0, y > 0) = 0, pow(x, 0) = 1.
 constexpr double pow(double x, double y) {
-    return y == 0 ? 1.0 : x == 0 ? (y > 0 ? 0.0 : std::numeric_limits<double>::infinity()) : exp(y * log(x));
+    if (y == 0) return 1;
+    if (x == 0) return y > 0 ? 0.0 : y < 0 ? std::numeric_limits<double>::infinity() : y;
+    return exp(y * log(x));
 }
 
 /// Arc tangent of y / x in [-pi, pi], absolute error < 1e-15; (0, 0) gives 0, two infinities NaN.
@@ -7558,10 +7561,18 @@ inline bool is_special(const std::string& path) {
 #endif
 }
 
+/// Position of the file's name in a path.
+inline std::size_t name_begin(const std::string& path) {
+#if defined(_WIN32)
+    return path.find_last_of("/\\") + 1;  // 0 without a folder
+#else
+    return path.find_last_of('/') + 1;
+#endif
+}
 /// Path of the folder that contains `path`.
 inline std::string folder_of(const std::string& path) {
-    const std::size_t slash = path.find_last_of('/');
-    return slash == std::string::npos ? "." : path.substr(0, slash + 1);
+    const std::size_t begin = name_begin(path);
+    return begin == 0 ? "." : path.substr(0, begin);
 }
 
 /// Syncs a folder's entries to disk. Failure is ignored: the file itself is on disk, and some network file systems
@@ -7613,8 +7624,7 @@ class replacement_file {
             detail::raise_io(path_.c_str(), "can't open for writing: a zero byte in its name");
         if (path_.empty()) detail::raise_io(path_, "can't open for writing");
         if (detail::is_special(path_)) detail::raise_io(path_, "can't open for writing: not a regular file");
-        const std::size_t separator = path_.find_last_of("/\\") + 1;  // 0 without a folder
-        const std::string shortened = path_.substr(0, separator + 240);
+        const std::string shortened = path_.substr(0, detail::name_begin(path_) + 240);
         for (int number = 0; file_.get() == nullptr; ++number) {
             temporary_ = shortened + ".tmp" + detail::to_text(number);
             errno = 0;

@@ -185,7 +185,9 @@ inline double tan(double radians) {
 
 /// x to the power y for x >= 0, relative error below (|y log x| + 2) * 3e-16; pow(0, y > 0) = 0, pow(x, 0) = 1.
 constexpr double pow(double x, double y) {
-    return y == 0 ? 1.0 : x == 0 ? (y > 0 ? 0.0 : std::numeric_limits<double>::infinity()) : exp(y * log(x));
+    if (y == 0) return 1;
+    if (x == 0) return y > 0 ? 0.0 : y < 0 ? std::numeric_limits<double>::infinity() : y;
+    return exp(y * log(x));
 }
 
 /// Arc tangent of y / x in [-pi, pi], absolute error < 1e-15; (0, 0) gives 0, two infinities NaN.

@@ -46,10 +46,18 @@ inline bool is_special(const std::string& path) {
 #endif
 }
 
+/// Position of the file's name in a path.
+inline std::size_t name_begin(const std::string& path) {
+#if defined(_WIN32)
+    return path.find_last_of("/\\") + 1;  // 0 without a folder
+#else
+    return path.find_last_of('/') + 1;
+#endif
+}
 /// Path of the folder that contains `path`.
 inline std::string folder_of(const std::string& path) {
-    const std::size_t slash = path.find_last_of('/');
-    return slash == std::string::npos ? "." : path.substr(0, slash + 1);
+    const std::size_t begin = name_begin(path);
+    return begin == 0 ? "." : path.substr(0, begin);
 }
 
 /// Syncs a folder's entries to disk. Failure is ignored: the file itself is on disk, and some network file systems
@@ -101,8 +109,7 @@ class replacement_file {
             detail::raise_io(path_.c_str(), "can't open for writing: a zero byte in its name");
         if (path_.empty()) detail::raise_io(path_, "can't open for writing");
         if (detail::is_special(path_)) detail::raise_io(path_, "can't open for writing: not a regular file");
-        const std::size_t separator = path_.find_last_of("/\\") + 1;  // 0 without a folder
-        const std::string shortened = path_.substr(0, separator + 240);
+        const std::string shortened = path_.substr(0, detail::name_begin(path_) + 240);
         for (int number = 0; file_.get() == nullptr; ++number) {
             temporary_ = shortened + ".tmp" + detail::to_text(number);
             errno = 0;

@@ -10,7 +10,7 @@ namespace in = insonify;
 
 TEST_CASE(
     "A pool starts with as many threads as memory allows, and a failed allocation in its work reaches the caller") {
-    CHECK(failing_new::in_turn([] {
+    CHECK(failing_new::fail_each_allocation([] {
               in::thread_pool pool(4);
               std::vector<std::vector<int>> made(16);
               bool has_failed = false;
@@ -30,7 +30,7 @@ TEST_CASE(
 
 TEST_CASE("A failed assignment leaves an image unchanged") {
     const in::image<float> large(40, 30, 2.0f);
-    CHECK(failing_new::in_turn([&] {
+    CHECK(failing_new::fail_each_allocation([&] {
               in::image<float> held(3, 3, 1.0f);
               try {
                   held = large;

@@ -31,7 +31,7 @@ in::frame<> picture(auto& ex, int side = 256) {
 }
 
 /// An executor whose memory() is no scratch memory.
-struct counted_executor {
+struct executor_with_other_memory {
     std::size_t memory() const { return 0; }
     template <class Fn>
     void bulk(std::size_t count, Fn&& fn) const {
@@ -93,8 +93,8 @@ TEST_CASE("Images may outlive their context and be destroyed on any thread; thei
         in::context context;
         kept = in::image<float>(512, 512, uninitialized{}, context.memory());
         std::fill(kept.pixels().begin(), kept.pixels().end(), 7.0f);
-        copy = kept;
         std::thread([moved = in::image<float>(512, 512, uninitialized{}, context.memory())] {}).join();
+        copy = kept;
         CHECK(context.kept_bytes() == megabyte);
     }
     CHECK(kept == copy);
@@ -124,7 +124,15 @@ TEST_CASE("release() frees the kept blocks") {
     CHECK(context.kept_bytes() > 0);
 }
 
-TEST_CASE("Small vectors bypass the context's memory") {
+TEST_CASE("release() forgets the peak, so that a block in use is freed and not kept") {
+    in::context context;
+    in::image<float> in_use(512, 512, uninitialized{}, context.memory());
+    context.release();
+    in_use = {};
+    CHECK(context.kept_bytes() == 0);
+}
+
+TEST_CASE("Small arrays bypass the context's memory") {
     in::context context;
     floats(block_pool::min_bytes / sizeof(float) - 1, context.memory());
     CHECK(context.kept_bytes() == 0);
@@ -174,8 +182,16 @@ TEST_CASE("As many blocks as necessary are freed, in the order of their age") {
     CHECK(pool.kept_bytes() == 15 * megabyte);  // 3, 4 and 8
 }
 
+TEST_CASE("A pool keeps at most 64 blocks") {
+    block_pool pool;
+    std::vector<void*> blocks;
+    for (int i = 0; i < 70; ++i) blocks.push_back(pool.allocate(block_pool::min_bytes));
+    for (void* const block : blocks) pool.deallocate(block, block_pool::min_bytes);
+    CHECK(pool.kept_bytes() == 64 * block_pool::min_bytes);
+}
+
 TEST_CASE("An executor may have a memory() of its own") {
-    counted_executor ex;
+    executor_with_other_memory ex;
     CHECK(in::render(in::scene{}, in::overhead{.size = {8, 8}}, in::render_options<>{}, ex).image.width() == 8);
 }
 

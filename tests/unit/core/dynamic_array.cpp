@@ -25,7 +25,8 @@ std::string element(std::uint32_t value, const std::string&) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("Any sequence of changes leaves what it leaves in a vector", "", std::uint32_t, std::string) {
+TEMPLATE_TEST_CASE("dynamic_array holds what std::vector holds after any sequence of changes", "", std::uint32_t,
+                   std::string) {
     in::random_sequence random(1, 0, 0);
     dynamic_array<TestType> array;
     std::vector<TestType> vector;
@@ -80,6 +81,17 @@ TEST_CASE("Copies are independent, and a moved array leaves an empty one") {
     CHECK(array.empty());
 }
 
+TEST_CASE("Over-aligned elements are aligned, also after the array has grown") {
+    struct alignas(64) wide {
+        int value;
+    };
+    dynamic_array<wide> array;
+    for (int i = 0; i < 100; ++i) {
+        array.push_back({i});
+        REQUIRE(reinterpret_cast<std::uintptr_t>(array.data()) % 64 == 0);
+    }
+}
+
 TEST_CASE("Elements of growing arrays are destroyed once") {
     static int alive;
     struct counted {
@@ -126,7 +138,7 @@ TEST_CASE("A copy that fails leaves no element behind") {
 }
 
 #if !defined(INSONIFY_SANITIZED)  // sanitizers end a program that asks for so much
-TEST_CASE("A growing array of a size that no machine has fails, and keeps its elements") {
+TEST_CASE("resize() and reserve() beyond the address space throw std::bad_alloc and keep the elements") {
     dynamic_array<double> array(3, 1.5);
     CHECK_THROWS_AS(array.resize(SIZE_MAX), std::bad_alloc);
     CHECK_THROWS_AS(array.reserve(SIZE_MAX / 8 + 2), std::bad_alloc);

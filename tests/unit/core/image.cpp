@@ -72,6 +72,8 @@ TEST_CASE("A part of a view keeps the stride and shows the pixels at its offset"
     CHECK(in::image<int>(part) == in::image<int>{{11, 12}, {21, 22}});
     CHECK(in::image<int>(part.part(1, 0, 1, 2)) == in::image<int>{{12}, {22}});
     CHECK(table.view().part(4, 3, 0, 0).empty());
+    const in::image<int> no_rows(7, 0);
+    CHECK(no_rows.view().part(3, 0, 2, 0).data() == no_rows.view().data());
 
     CHECK_THROWS_AS(table.view().part(1, 1, 4, 1), in::invalid_input);
     CHECK_THROWS_AS(table.view().part(1, 1, 1, 3), in::invalid_input);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "../../catch.hpp"
+#include "../../larger.hpp"
 
 namespace in = insonify;
 namespace numeric = insonify::numeric;
@@ -33,6 +34,10 @@ constexpr long double wide(double x) {
     return static_cast<long double>(x);
 }
 
+double difference(double value, long double expected) {
+    return static_cast<double>(std::fabs(wide(value) - expected));
+}
+
 // In units of the last place of a double at the expected value; below the normal range, of the smallest subnormal.
 double ulps(double value, long double expected) {
     if (std::fabs(expected) > wide((limits::max)())) return std::isinf(value) ? 0 : infinity;
@@ -46,10 +51,7 @@ template <class Error>
 double worst(double low, double high, Error&& error) {
     in::random_sequence random(2021);
     double largest = 0;
-    for (int i = 0; i < draw_count; ++i) {
-        const double e = error(random.uniform(low, high));
-        if (!(e <= largest)) largest = e;
-    }
+    for (int i = 0; i < draw_count; ++i) largest = larger(largest, error(random.uniform(low, high)));
     return largest;
 }
 
@@ -92,8 +94,7 @@ TEST_CASE("sin_cos_turns() is accurate to 2e-16, exact at quarter turns, and per
     const auto error = [](double x) {
         const long double angle = 2 * std::acos(-1.0L) * (wide(x) - wide(std::floor(x)));
         const auto [sine, cosine] = numeric::sin_cos_turns(x);
-        return static_cast<double>(
-            (std::max)(std::fabs(wide(sine) - std::sin(angle)), std::fabs(wide(cosine) - std::cos(angle))));
+        return larger(difference(sine, std::sin(angle)), difference(cosine, std::cos(angle)));
     };
     CHECK(worst(-1, 1, error) < 2e-16);
     CHECK(worst(-1e-3, 1e-3, error) < 2e-16);
@@ -110,10 +111,8 @@ TEST_CASE("sin_cos_turns() is accurate to 2e-16, exact at quarter turns, and per
 TEST_CASE("Sine, cosine and tangent of radians agree with the C library over several turns") {
     const auto error = [](double x) {
         const auto [sine, cosine] = numeric::sin_cos(x);
-        const long double angle = wide(x);
-        return static_cast<double>(
-                   (std::max)(std::fabs(wide(sine) - std::sin(angle)), std::fabs(wide(cosine) - std::cos(angle)))) /
-               ((std::fabs(x) + 1) * 2e-16);
+        const double largest = larger(difference(sine, std::sin(wide(x))), difference(cosine, std::cos(wide(x))));
+        return largest / ((std::fabs(x) + 1) * 2e-16);
     };
     CHECK(worst(-1, 1, error) < 1);
     CHECK(worst(-1000, 1000, error) < 1);
@@ -127,7 +126,7 @@ TEST_CASE("atan2() is accurate to 1e-15 in all quadrants and exact on the axes")
         const double scale = std::exp2(random.uniform(-300, 300)), slope = std::exp2(random.uniform(-8, 8));
         const double y = scale * slope * random.uniform(-1, 1), x = scale * random.uniform(-1, 1);
         const long double expected = std::atan2(wide(y), wide(x));
-        largest = (std::max)(largest, static_cast<double>(std::fabs(wide(numeric::atan2(y, x)) - expected)));
+        largest = larger(largest, difference(numeric::atan2(y, x), expected));
     }
     CHECK(largest < 1e-15);
 
@@ -141,6 +140,7 @@ TEST_CASE("atan2() is accurate to 1e-15 in all quadrants and exact on the axes")
     CHECK(numeric::atan2(1, -infinity) == numeric::pi);
     CHECK(std::isnan(numeric::atan2(quiet_nan, 1)));
     CHECK(std::isnan(numeric::atan2(1, quiet_nan)));
+    CHECK(std::isnan(numeric::atan2(infinity, -infinity)));
     CHECK(std::isnan(numeric::atan2(0, quiet_nan)));
     CHECK(std::isnan(numeric::atan2(quiet_nan, 0)));
 }
@@ -152,7 +152,7 @@ TEST_CASE("pow() is accurate to the error of the logarithm, and exact at 0 and 1
         const double x = std::exp2(random.uniform(-20, 20)), y = random.uniform(-20, 20);
         const long double exact = std::pow(wide(x), wide(y));
         const double bound = (std::fabs(y * std::log(x)) + 2) * 3e-16;
-        largest = (std::max)(largest, static_cast<double>(std::fabs(wide(numeric::pow(x, y)) / exact - 1)) / bound);
+        largest = larger(largest, static_cast<double>(std::fabs(wide(numeric::pow(x, y)) / exact - 1)) / bound);
     }
     CHECK(largest < 1);
 
@@ -162,6 +162,29 @@ TEST_CASE("pow() is accurate to the error of the logarithm, and exact at 0 and 1
     CHECK(numeric::pow(0, -3) == infinity);
     CHECK(numeric::pow(1, 1e10) == 1);
     CHECK(std::isnan(numeric::pow(quiet_nan, 1)));
+    CHECK(std::isnan(numeric::pow(0, quiet_nan)));
+}
+
+TEST_CASE("normal_quantile() inverts the normal distribution to 4.5e-4") {
+    const auto error = [](double p) {
+        // The quantile's derivative is one over the density.
+        const double x = numeric::normal_quantile(p), excess = 0.5 * std::erfc(-x / std::sqrt(2.0)) - p;
+        return std::fabs(excess) * std::sqrt(2 * numeric::pi) * std::exp(0.5 * x * x);
+    };
+    CHECK(worst(0, 1, error) < 4.6e-4);
+    CHECK(worst(-200, -1, [&](double exponent) { return error(std::exp2(exponent / 10)); }) < 4.6e-4);
+}
+
+TEST_CASE("rounded_to_eight_bits() rounds to the nearest number of eight significant bits") {
+    CHECK(numeric::rounded_to_eight_bits(1) == 1);
+    CHECK(numeric::rounded_to_eight_bits(255) == 255);
+    CHECK(numeric::rounded_to_eight_bits(257.5) == 258);
+    CHECK(numeric::rounded_to_eight_bits(0.1) == 205.0 / 2048);
+    CHECK(worst(-100, 100, [](double exponent) {
+              const double x = std::exp2(exponent), rounded = numeric::rounded_to_eight_bits(x);
+              const double unit = std::ldexp(1.0, std::ilogb(x) - 7);
+              return rounded / unit == std::floor(rounded / unit) ? std::fabs(rounded - x) / unit : infinity;
+          }) <= 0.5);
 }
 
 TEST_CASE("Square roots are correctly rounded") {

@@ -4,12 +4,37 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
+#include <limits>
 #include <vector>
 
 #include "../../catch.hpp"
 
 namespace in = insonify;
 using in::detail::keyed;
+
+TEST_CASE("The ordered bits of floats compare as the floats do, with -0 below 0 and NaN at the ends") {
+    using in::detail::from_ordered_bits, in::detail::ordered_bits;
+    using limits = std::numeric_limits<float>;
+    const float ascending[] = {-limits::quiet_NaN(),
+                               -limits::infinity(),
+                               limits::lowest(),
+                               -1.0f,
+                               -limits::denorm_min(),
+                               -0.0f,
+                               0.0f,
+                               limits::denorm_min(),
+                               1.0f,
+                               (limits::max)(),
+                               limits::infinity(),
+                               limits::quiet_NaN()};
+    for (std::size_t i = 0; i < std::size(ascending); ++i) {
+        const std::uint32_t bits = ordered_bits(ascending[i]);
+        CHECK(in::numeric::bit_cast<std::uint32_t>(from_ordered_bits(bits)) ==
+              in::numeric::bit_cast<std::uint32_t>(ascending[i]));
+        if (i > 0) CHECK(ordered_bits(ascending[i - 1]) < bits);
+    }
+}
 
 TEST_CASE("radix_sort() orders by key and keeps the order of equal ones, as a stable sort does") {
     // Sizes around 64, below which insertion sort is used; few distinct keys, keys of few digits that vary, all bits.

@@ -6,13 +6,7 @@
 
 #include "../../catch.hpp"
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define SANITIZED 1  // sanitizers replace pthread_create, too
-#endif
-#endif
-
-#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(SANITIZED)
+#if defined(__linux__) && !defined(INSONIFY_SANITIZED)  // sanitizers replace pthread_create, too
 #include <cerrno>
 
 #include <dlfcn.h>

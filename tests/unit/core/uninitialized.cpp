@@ -59,7 +59,7 @@ TEST_CASE("Elements are destroyed once, by a new size, an assignment or the end"
 }
 
 #if !defined(INSONIFY_SANITIZED)  // sanitizers end a program that asks for so much
-TEST_CASE("A size that no machine has fails like one that this machine has not") {
+TEST_CASE("A size beyond the address space throws std::bad_alloc") {
     constexpr std::size_t largest = SIZE_MAX;
     CHECK_THROWS_AS(in::detail::uninitialized_array<double>(largest), std::bad_alloc);
     CHECK_THROWS_AS(in::detail::uninitialized_array<double>(largest, in::context().memory()), std::bad_alloc);

@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "../../catch.hpp"
+#include "../../larger.hpp"
 #include "../../moments.hpp"
 
 namespace in = insonify;
-using moments::correlation, moments::of;
+using moments::correlation, moments::of, moments::once_in_1000;
 
 namespace {
 
@@ -23,18 +24,10 @@ in::image<float> noisy(const Noise& noise, float value = level) {
     return in::image<float>(side, side, value) | noise;
 }
 
-/// Kolmogorov and Smirnov's distance of pixel / level to a law.
-template <class Cdf>
-double distance(const in::image<float>& picture, Cdf cdf) {
-    std::vector<float> sorted(picture.pixels().begin(), picture.pixels().end());
-    std::sort(sorted.begin(), sorted.end());
-    const auto n = static_cast<double>(sorted.size());
-    double result = 0;
-    for (std::size_t i = 0; i < sorted.size(); ++i) {
-        const double p = cdf(static_cast<double>(sorted[i]) / static_cast<double>(level));
-        result = std::fmax(result, std::fmax(p - static_cast<double>(i) / n, static_cast<double>(i + 1) / n - p));
-    }
-    return result;
+/// Distance of pixel / level from a law: see moments::kolmogorov_smirnov.
+template <class Cumulative>
+double distance(const in::image<float>& picture, const Cumulative& law) {
+    return moments::kolmogorov_smirnov(picture.pixels(), [&](double v) { return law(v / static_cast<double>(level)); });
 }
 
 /// Gamma(looks = 3, mean 1) up to x.
@@ -43,32 +36,31 @@ double three_looks(double x) {
     return 1 - std::exp(-t) * (1 + t + t * t / 2);
 }
 
-constexpr double ks_limit = 1.95 / side;  // exceeded once in a thousand
-
 }  // namespace
 
 TEST_CASE("Intensities follow their laws") {
     CHECK(distance(noisy(in::rayleigh{.of = in::echo::intensity, .seed = 1}),
-                   [](double x) { return 1 - std::exp(-x); }) < ks_limit);
-    CHECK(distance(noisy(in::gamma_speckle{.looks = 3, .of = in::echo::intensity, .seed = 2}), three_looks) < ks_limit);
+                   [](double x) { return 1 - std::exp(-x); }) < once_in_1000);
+    CHECK(distance(noisy(in::gamma_speckle{.looks = 3, .of = in::echo::intensity, .seed = 2}), three_looks) <
+          once_in_1000);
     // Chi-square of one degree.
     CHECK(distance(noisy(in::gamma_speckle{.looks = 0.5f, .of = in::echo::intensity, .seed = 3}, level),
-                   [](double x) { return std::erf(std::sqrt(x / 2)); }) < ks_limit);
+                   [](double x) { return std::erf(std::sqrt(x / 2)); }) < once_in_1000);
     // K of shape 1/2: P(I > t) = exp(-sqrt(2 t)), from the integral of exp(-t / tau) over chi-square textures.
     CHECK(distance(
               noisy(in::k_speckle{.shape = 0.5f, .of = in::echo::intensity, .seed = 4}, level / 4) |
                   [](float v) { return 4 * v; },
-              [](double x) { return 1 - std::exp(-std::sqrt(2 * x)); }) < ks_limit);
+              [](double x) { return 1 - std::exp(-std::sqrt(2 * x)); }) < once_in_1000);
     CHECK(distance(noisy(in::rician{.steady = 0, .of = in::echo::intensity, .seed = 5}),
-                   [](double x) { return 1 - std::exp(-x); }) < ks_limit);
+                   [](double x) { return 1 - std::exp(-x); }) < once_in_1000);
 }
 
 TEST_CASE("Amplitudes follow their laws, with the mean of the image") {
     CHECK(distance(noisy(in::rayleigh{.seed = 1}),
-                   [](double x) { return 1 - std::exp(-x * x * in::numeric::pi / 4); }) < ks_limit);
+                   [](double x) { return 1 - std::exp(-x * x * in::numeric::pi / 4); }) < once_in_1000);
     const double mean_root = in::detail::mean_root_of_gamma(3);
     CHECK(distance(noisy(in::gamma_speckle{.looks = 3, .seed = 2}),
-                   [&](double x) { return three_looks(x * x * mean_root * mean_root); }) < ks_limit);
+                   [&](double x) { return three_looks(x * x * mean_root * mean_root); }) < once_in_1000);
     for (const auto& picture : {noisy(in::rayleigh{}), noisy(in::gamma_speckle{}), noisy(in::k_speckle{}),
                                 noisy(in::rician{}), noisy(in::rician{.steady = 20})}) {
         const auto m = of(picture);
@@ -98,12 +90,19 @@ TEST_CASE("Mean amplitudes equal their closed forms, on both sides of the change
     using in::detail::mean_of_rice;
     using in::detail::mean_root_of_gamma;
     for (const double shape : {0.01, 0.5, 1.0, 3.3, 19.99, 20.01, 500.0}) {
-        const double exact = std::exp(std::lgamma(shape + 0.5) - std::lgamma(shape)) / std::sqrt(shape);
-        CHECK(mean_root_of_gamma(shape) == Approx(exact).epsilon(1e-10));
+        const auto wide = static_cast<long double>(shape);
+        const long double exact = std::exp(std::lgamma(wide + 0.5L) - std::lgamma(wide)) / std::sqrt(wide);
+        CHECK(mean_root_of_gamma(shape) == Approx(static_cast<double>(exact)).epsilon(5e-12));
     }
     CHECK(mean_of_rice(0) == Approx(std::sqrt(in::numeric::pi) / 2).epsilon(1e-14));
     CHECK(mean_of_rice(299.999) == Approx(mean_of_rice(300.001)).epsilon(1e-8));
     CHECK(mean_of_rice(1e6) == Approx(1).epsilon(1e-6));
+    for (const double steady : {0.1, 1.0, 10.0, 100.0, 600.0}) {
+        const double h = 0.5 * steady;
+        const double bessel = (1 + steady) * std::cyl_bessel_i(0, h) + steady * std::cyl_bessel_i(1, h);
+        const double exact = std::sqrt(in::numeric::pi) / 2 * std::exp(-h) * bessel / std::sqrt(1 + steady);
+        CHECK(mean_of_rice(steady) == Approx(exact).epsilon(1e-6));
+    }
 }
 
 namespace {
@@ -145,6 +144,24 @@ TEST_CASE("The intensities of correlated echo noise have the 1/e length of the p
     check("K 4", in::k_speckle{.shape = 4, .of = intensity, .correlation = both}, 1.5);
     check("K 6, 4 looks", in::k_speckle{.shape = 6, .looks = 4, .of = intensity, .correlation = both},
           7.0 / 6 * 5 / 4 - 1);
+}
+
+TEST_CASE("Taps give white noise the autocorrelation exp(-(d / length)^2) to 0.003 at every distance") {
+    for (const double length : {0.01, 0.3, 0.5, 1.0, 2.0, 10.0, 45.0, 50.0}) {
+        const auto half = in::detail::field_taps(length);
+        const int reach = static_cast<int>(half.size()) - 1;
+        const auto tap = [&](int i) {
+            return std::abs(i) <= reach ? static_cast<double>(half[static_cast<std::size_t>(std::abs(i))]) : 0.0;
+        };
+        double worst = 0;
+        for (int d = 0; d <= 2 * reach + 5; ++d) {
+            double sum = 0;
+            for (int i = -reach; i <= reach; ++i) sum += tap(i) * tap(i + d);
+            worst = larger(worst, std::abs(sum - std::exp(-(d / length) * (d / length))));
+        }
+        INFO("length " << length);
+        CHECK(worst < 0.003);
+    }
 }
 
 TEST_CASE("Below a pixel, adjacent echoes are correlated as the Gaussian of that 1/e length, down to 0.3") {

@@ -3,38 +3,64 @@
 
 #include "../../catch.hpp"
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define SANITIZED 1  // sanitizers replace fsync, too
-#endif
-#endif
-
-#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(SANITIZED)
-#include <filesystem>
+#if defined(__linux__) && !defined(INSONIFY_SANITIZED)  // sanitizers replace fsync, too
+#include <cerrno>
 #include <vector>
 
+#include "../../scratch_folder.hpp"
 #include <sys/stat.h>
 
 namespace {
-std::vector<bool> synced_folders;  // of each call of fsync: whether it was for a folder
+
+struct synced {
+    ino_t node;
+    bool target_exists;
+    bool operator==(const synced&) const = default;
+};
+std::vector<synced> calls;  // of fsync
+std::string target;
+bool fails = false;
+
+bool exists(const std::string& path) {
+    struct stat status {};
+    return ::stat(path.c_str(), &status) == 0;
 }
+ino_t node_of(const std::string& path) {
+    struct stat status {};
+    return ::stat(path.c_str(), &status) == 0 ? status.st_ino : 0;
+}
+
+}  // namespace
 
 // Replaces the system's function.
 extern "C" int fsync(int file) {
     struct stat status {};
-    synced_folders.push_back(::fstat(file, &status) == 0 && S_ISDIR(status.st_mode));
-    return 0;
+    calls.push_back({::fstat(file, &status) == 0 ? status.st_ino : 0, exists(target)});
+    if (!fails) return 0;
+    errno = EIO;
+    return -1;
 }
 
-TEST_CASE("write_file() flushes the file to disk, then its folder") {
-    const auto path = std::filesystem::temp_directory_path() / "insonify_durable";
-    synced_folders.clear();
-    insonify::write_file(path.string(), "bytes");
-    std::filesystem::remove(path);
-    CHECK(synced_folders == std::vector<bool>{false, true});
+TEST_CASE("write_file() flushes the file to disk before it has its name, then the folder") {
+    const scratch_folder folder;
+    target = folder / "name";
+    calls.clear();
+    insonify::write_file(target, "bytes");
+    CHECK(calls == std::vector<synced>{{node_of(target), false}, {node_of(folder.path.string()), true}});
+}
+
+TEST_CASE("A file that cannot be flushed does not replace the old one") {
+    const scratch_folder folder;
+    target = folder / "name";
+    insonify::write_file(target, "old");
+    fails = true;
+    CHECK_THROWS_WITH(insonify::write_file(target, "new"), ContainsSubstring("can't write: Input/output error"));
+    fails = false;
+    CHECK(insonify::read_file(target) == "old");
+    CHECK(folder.names().size() == 1);
 }
 #else
-TEST_CASE("write_file() flushes the file to disk, then its folder") {
+TEST_CASE("write_file() flushes the file to disk before it has its name, then the folder") {
     SUCCEED("fsync is the system's own here");
 }
 #endif

@@ -25,7 +25,7 @@ const in::side_scan sonar{.altitude = 4, .ping_spacing = 0.5f, .pings = 3, .rang
 TEST_CASE("render() survives any failed allocation, with each shadow policy") {
     const in::scene s = mixed_scene();
     const auto drawn = [&](const auto& policy) {
-        return failing_new::in_turn([&] {
+        return failing_new::fail_each_allocation([&] {
             const auto frame = in::render(s, small_rig, in::render_options<>{.cell = 2.3}.with(policy));
             return std::pair(frame.image, frame.labels.shadow);
         });
@@ -35,14 +35,14 @@ TEST_CASE("render() survives any failed allocation, with each shadow policy") {
     CHECK(drawn(in::shadow::map{}) > 50);
     CHECK(drawn(in::shadow::pcf{}) > 50);
     CHECK(drawn(in::shadow::penumbra{.samples = 2}) > 50);
-    CHECK(failing_new::in_turn([&] { return in::visible_triangles(s, small_rig).triangle; }) > 20);
+    CHECK(failing_new::fail_each_allocation([&] { return in::visible_triangles(s, small_rig).triangle; }) > 20);
 }
 
 TEST_CASE("record() survives any failed allocation, with looks and speckle") {
     const in::scene s = mixed_scene();
     const auto options = in::record_options<>{}.with(
         in::sonar_equation{in::horizontal_beam{0.2f}, in::pulse{}, in::noise_floor{}, in::level_gain{}});
-    CHECK(failing_new::in_turn([&] {
+    CHECK(failing_new::fail_each_allocation([&] {
               auto heard = in::with_speckle(in::with_tone(in::render(s, sonar, options), sonar, {.drift = 2}));
               const auto ground = in::to_ground_range(heard, sonar, {.altitude = 4, .range = 7, .bins = 9});
               return std::pair(ground.image | in::water_column{} | in::automatic_display{}, ground.labels.seabed);
@@ -52,15 +52,16 @@ TEST_CASE("record() survives any failed allocation, with looks and speckle") {
 TEST_CASE("Drawing on several threads survives any failed allocation, and the pool stays usable") {
     const in::scene s = mixed_scene();
     in::thread_pool pool(3);
-    CHECK(failing_new::in_turn([&] { return in::render(s, small_rig, {.cell = 2.3}, pool).image; }) > 50);
-    CHECK(failing_new::in_turn([&] { return in::render(s, sonar, in::record_options<>{}, pool).image; }) > 20);
+    CHECK(failing_new::fail_each_allocation([&] { return in::render(s, small_rig, {.cell = 2.3}, pool).image; }) > 50);
+    CHECK(failing_new::fail_each_allocation([&] { return in::render(s, sonar, in::record_options<>{}, pool).image; }) >
+          20);
 }
 
 TEST_CASE("A context survives any failed allocation without leaks") {
     const in::scene s = mixed_scene();
     constexpr in::overhead larger{
         .altitude = 4, .size = {160, 110}, .grazing = 0.4f};  // planes of 70 KB come from the context
-    CHECK(failing_new::in_turn([&] {
+    CHECK(failing_new::fail_each_allocation([&] {
               in::context context;
               in::image<float> last;
               for (int frame = 0; frame < 2; ++frame) last = in::render(s, larger, {.cell = 0.7}, context).image;
@@ -71,7 +72,7 @@ TEST_CASE("A context survives any failed allocation without leaks") {
 TEST_CASE("Occlusion survives any failed allocation") {
     const in::scene s = mixed_scene();
     const glm::dvec3 at[] = {{0, 0, 1}, {0.9, 0.1, 0.02}};
-    CHECK(failing_new::in_turn([&] {
+    CHECK(failing_new::fail_each_allocation([&] {
               const auto built =
                   in::occlusion_of(s, in::light_of(small_rig), {.box = {{-1, -1, 0}, {1, 1, 1}}, .cell = 0.5});
               return built.test(at).lit;
@@ -82,7 +83,7 @@ TEST_CASE("A failed add() leaves the scene unchanged") {
     in::scene s = mixed_scene();
     s.targets.shrink_to_fit();
     const std::string long_name(100, 'x');
-    CHECK(failing_new::in_turn([&] {
+    CHECK(failing_new::fail_each_allocation([&] {
               const std::size_t before = s.targets.size();
               bool is_whole = true;
               try {

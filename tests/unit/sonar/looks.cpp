@@ -69,7 +69,7 @@ TEST_CASE("display() shows a power of the intensity, clamped at white") {
     CHECK(shown(0.75f, in::display{.white = 6, .exponent = 0.25f}) == Approx(std::pow(0.125, 0.25)));
     CHECK(shown(7, in::display{.white = 6, .exponent = 2}) == 1);
     for (const float v : {0.0f, -1.0f, not_a_number}) CHECK(shown(v, in::display{.exponent = 0.3f}) == 0);
-    CHECK(shown(endless, in::display{.exponent = 0.3f}) == 1);
+    CHECK(shown(positive_infinity, in::display{.exponent = 0.3f}) == 1);
     for (const float bad : {0.0f, -1.0f, 5.0f, not_a_number})
         CHECK_THROWS_AS(in::display{.exponent = bad}.pass(), in::invalid_input);
 }
@@ -83,7 +83,7 @@ TEST_CASE("decibel_display() steps evenly from black at its range below white") 
         }
     CHECK(shown(1e-30f, in::decibel_display{}) == 0);
     CHECK(shown(1e30f, in::decibel_display{}) == 1);
-    CHECK(shown(endless, in::decibel_display{}) == 1);
+    CHECK(shown(positive_infinity, in::decibel_display{}) == 1);
     for (const float v : {0.0f, -3.0f, not_a_number}) CHECK(shown(v, in::decibel_display{}) == 0);
     CHECK_THROWS_AS(in::decibel_display{.white = 0}.pass(), in::invalid_input);
     CHECK_THROWS_AS(in::decibel_display{.range = not_a_number}.pass(), in::invalid_input);
@@ -111,7 +111,7 @@ TEST_CASE("automatic_display() takes constant, empty and non-finite pictures") {
     CHECK((in::image<float>(1, 1, not_a_number) | in::automatic_display{})(0, 0) == 0);
     CHECK((in::image<float>() | in::automatic_display{}).size() == 0);
     in::image<float> mixed(4, 1, 1.0f);
-    mixed(0, 0) = endless, mixed(1, 0) = not_a_number, mixed(2, 0) = 0;
+    mixed(0, 0) = positive_infinity, mixed(1, 0) = not_a_number, mixed(2, 0) = 0;
     const auto seen = mixed | in::automatic_display{.black = 0, .white = 0};
     CHECK(seen(0, 0) == 1);
     CHECK(seen(1, 0) == 0);

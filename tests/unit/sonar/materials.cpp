@@ -33,7 +33,7 @@ void check_refused(const in::scene& s, const std::string& words) {
 }  // namespace
 
 TEST_CASE("A reflectivity that is NaN, infinite or negative is refused by name: of targets, and of every bottom") {
-    for (const float value : {not_a_number, endless, -endless, -0.5f}) {
+    for (const float value : {not_a_number, positive_infinity, -positive_infinity, -0.5f}) {
         in::scene s = cubes();
         s.targets[1].surface.reflectivity = value;
         check_refused(s, "scene.targets[1].surface.reflectivity is " + in::detail::to_text(value) + ", expected 0 or");
@@ -62,7 +62,7 @@ TEST_CASE("A pose that is not finite is refused by name, in every way to draw") 
     s.targets[1].placement.position.y = nan;
     check_refused(s, "scene.targets[1].placement.position.y is nan, expected finite");
     s = cubes();
-    s.targets[0].placement.roll = endless;
+    s.targets[0].placement.roll = positive_infinity;
     check_refused(s, "scene.targets[0].placement.roll is inf, expected finite");
     s = cubes();
     s.targets[0].placement.scale = static_cast<float>(nan);

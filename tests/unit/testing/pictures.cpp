@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "../../catch.hpp"
 
@@ -112,6 +114,32 @@ TEST_CASE("A difference picture is gray where pixels agree, red where they are b
     CHECK(picture(3, 0) == in::rgb8{85, 85, 85});
 }
 
+TEST_CASE("A difference picture is red where a value is NaN or infinite, and black where nothing is bright") {
+    const float nan = std::nanf(""), infinity = std::numeric_limits<float>::infinity();
+    const in::image<float> found{{nan, infinity, 0, 0}}, expected{{0, -infinity, nan, 0}};
+    const auto picture = in::difference_picture(found, expected);
+    for (int x = 0; x < 3; ++x) CHECK(picture(x, 0) == in::rgb8{255, 0, 0});
+    CHECK(picture(3, 0) == in::rgb8{0, 0, 0});
+    CHECK_THROWS_WITH(in::difference_picture(slope(2, 2), slope(3, 2)), ContainsSubstring("width of the picture is 2"));
+    CHECK_THROWS_WITH(in::difference_picture(slope(2, 2), slope(2, 3)),
+                      ContainsSubstring("height of the picture is 2"));
+}
+
+#if defined(__unix__)
+TEST_CASE("INSONIFY_UPDATE_GOLDEN asks for new golden pictures unless it is empty or 0") {
+    const char* const name = "INSONIFY_UPDATE_GOLDEN";
+    const char* const before = std::getenv(name);
+    const std::string kept = before != nullptr ? before : "";
+    ::unsetenv(name);
+    CHECK_FALSE(in::golden_update_requested());
+    for (const auto& [value, asks] : {std::pair{"", false}, {"0", false}, {"1", true}, {"yes", true}}) {
+        ::setenv(name, value, 1);
+        CHECK(in::golden_update_requested() == asks);
+    }
+    before != nullptr ? ::setenv(name, kept.c_str(), 1) : ::unsetenv(name);
+}
+#endif
+
 TEST_CASE("Golden pictures are written on demand, then compared; a failure leaves the picture and its difference") {
     remove_all("golden_slope");
     in::golden_pictures golden{.update = false};
@@ -159,6 +187,12 @@ TEST_CASE("Matchers describe the expectation and the mismatch") {
     CHECK_FALSE(matcher.MatchAndExplain(other, &why));
     matcher.DescribeTo(&what);
     CHECK(what.str() == "is the expected picture");
+    what.str("");
+    matcher.DescribeNegationTo(&what);
+    CHECK(what.str() == "is not the expected picture");
+    what.str("");
+    PrintTo(expected, &what);
+    CHECK(what.str() == "a picture of 4 x 4 pixels");
     CHECK(why.str().find("x = 2, y = 2: 9, expected 0.5") != std::string::npos);
     const auto for_catch = in::matches(matcher);
     CHECK_FALSE(for_catch.match(other));

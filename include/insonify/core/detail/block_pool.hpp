@@ -53,7 +53,7 @@ class block_pool {
         kept_ += size;
     }
 
-    /// Frees the kept blocks. Those in use are freed when they are deallocated.
+    /// Frees the kept blocks, and forgets the peak in use: blocks are kept again as if the first use began now.
     INSONIFY_TAGGED void release() noexcept {
         const guard lock(busy_);
         while (count_ > 0) free_oldest();
