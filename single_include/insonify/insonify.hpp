@@ -3425,6 +3425,10 @@ inline void check_size(const std::string& name, int width, int height, const pix
 ///     in::speckle{.variance = {labels.seabed, {0.02f, 0.05f, 0.05f, 0.1f}}}   // by seabed::type
 class parameter {
   public:
+    /// Moving copies: a parameter that was moved from still has its values.
+    INSONIFY_MEMBER parameter(const parameter&) = default;
+    INSONIFY_MEMBER parameter& operator=(const parameter&) = default;
+
     template <std::convertible_to<float> Number>
         requires(std::is_arithmetic_v<Number>)
     INSONIFY_MEMBER parameter(Number value) : values_{static_cast<float>(value)} {}
@@ -5100,6 +5104,11 @@ void run_pass(image_view<const From> from, image_view<To> to, const Pass& pass, 
     constexpr int farthest = 1 << 30;
     require_range("origin.x", origin.x, -farthest, farthest, "within 2^30");
     require_range("origin.y", origin.y, -farthest, farthest, "within 2^30");
+    // Correlated noise also draws the pixels around the image.
+    constexpr std::int64_t last = (std::int64_t{1} << 31) - 1024;
+    require(std::int64_t{origin.x} + from.width() <= last, "origin.x", origin.x, "at most 2^31 - 1024 less the width");
+    require(std::int64_t{origin.y} + from.height() <= last, "origin.y", origin.y,
+            "at most 2^31 - 1024 less the height");
     Pass prepared = pass;
     prepare_pass(prepared, {origin.x, origin.y, from.width(), from.height()});
     // A pass that computes rows above has long bands, and keeps those rows for one column of runs at a time.
@@ -19168,7 +19177,8 @@ struct mask_difference {
         return joined == 0 ? 1.0 : static_cast<double>(common) / static_cast<double>(joined);
     }
     /// Mean displacement of the boundary along its length, pixels: wrong pixels over boundary pixels. Infinite if there
-    /// are wrong pixels but no boundary.
+    /// are wrong pixels but no boundary. A feature that is missing counts with its area over its boundary, at most half
+    /// its width.
     INSONIFY_TAGGED double mean_boundary_displacement() const {
         if (wrong_pixels() == 0) return 0;
         if (boundary_pixels == 0) return std::numeric_limits<double>::infinity();
@@ -19334,6 +19344,13 @@ class seabed_probe {
             const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
             chip.position +=
                 glm::dvec2(in_picture.x * cosine - in_picture.y * sine, in_picture.x * sine + in_picture.y * cosine);
+            if (view.has_near_light()) {  // it stays where it is
+                const glm::dvec3 light = view.light_position() - glm::dvec3(in_picture, 0);
+                const double level = numeric::square_root(light.x * light.x + light.y * light.y);
+                chip.light_distance = static_cast<float>(numeric::square_root(level * level + light.z * light.z));
+                chip.grazing = static_cast<float>(numeric::atan2(light.z, level));
+                chip.light_azimuth = static_cast<float>(numeric::atan2(-light.y, -light.x));
+            }
             chip.size = {pixels_, pixels_};
             const double half = view.half_extent(0).x * pixels_ / rig.size.x;
             chip.field_of_view = static_cast<float>(2 * numeric::atan2(half, static_cast<double>(rig.altitude)));
@@ -19446,6 +19463,16 @@ inline int max_subpixel_bits(const overhead& rig) {
     return (std::max)(rig.size.x, rig.size.y) > 16384 ? 15 : 16;
 }
 
+/// Cotangent of the light's elevation where it is lowest in the picture.
+inline double largest_cot_elevation(const overhead_geometry& view) {
+    if (!view.has_near_light()) return view.light().cot_elevation();
+    const glm::dvec3 light = view.light_position();
+    const glm::dvec2 corner = view.half_extent(0);
+    return (numeric::square_root(light.x * light.x + light.y * light.y) +
+            numeric::square_root(corner.x * corner.x + corner.y * corner.y)) /
+           light.z;
+}
+
 }  // namespace detail::inline INSONIFY_FLAGS
 
 namespace accuracy {
@@ -19541,7 +19568,8 @@ struct settings {
 
     template <class Shape>
     INSONIFY_MEMBER static Shape with_segments(Shape shape, double deviation) {
-        shape.segments = segments_for(shape, static_cast<float>(deviation));
+        constexpr auto largest = static_cast<double>((std::numeric_limits<float>::max)());
+        shape.segments = segments_for(shape, static_cast<float>((std::min)(deviation, largest)));
         return shape;
     }
 };
@@ -19593,13 +19621,14 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     const detail::seabed_probe probed(bottom, rig, how, truth{}, ex);
     const double pixel = view.ground_sampling();
     const int longer = (std::max)(rig.size.x, rig.size.y);
+    const double lowest_light = detail::largest_cot_elevation(view);
     const auto errors_of = [&](double cells_per_pixel, double texels) {
         Shadow policy{};
         if constexpr (has_map) policy.texels_per_pixel = static_cast<float>(texels);
         errors all = probed.errors_of(cells_per_pixel, policy, ex);
         // An error of height h displaces the shadow of a target by h cot(elevation).
-        const double cot = std::same_as<Shadow, insonify::shadow::none> ? 0 : view.light().cot_elevation();
-        all.shadow_edge = (std::max)(all.shadow_edge, all.height * cot);
+        if constexpr (!std::same_as<Shadow, insonify::shadow::none>)
+            all.shadow_edge = (std::max)(all.shadow_edge, all.height * lowest_light);
         all.silhouette = tolerated.silhouette;
         return all;
     };

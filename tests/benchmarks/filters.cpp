@@ -1,5 +1,5 @@
-// Times of filters: filters [threads] [pixels] [runs] prints the best of 15 runs in milliseconds, for an image of
-// `pixels` x `pixels`.
+// Times of filters: filters [threads] [pixels] [runs] prints the best of `runs` (15) in milliseconds, for an image
+// of `pixels` x `pixels`.
 //
 // Filters run in turn, so that other load affects all of them alike.
 #include <insonify/all.hpp>

@@ -10,6 +10,7 @@
 #include <cstdio>
 
 #include "../catch.hpp"
+#include "../larger.hpp"
 #include "../unit/raster/pixel_space.hpp"
 
 using namespace conformance;
@@ -110,12 +111,12 @@ struct comparison {
                     if (a == 0) continue;
                     const double error =
                         std::abs(static_cast<double>(ours.depth(x, y)) - static_cast<double>(theirs.depth(x, y)));
-                    depth_error = (std::max)(depth_error, error);
+                    depth_error = larger(depth_error, error);
                     // Snapping a corner moves the depth plane by its rise, and depths are floats. llvmpipe cuts clipped
                     // triangles into parts: the planes of thin ones, in float, have up to 2.3 times that error here.
                     const glm::vec4* const triangle = &corners[3 * (a - 1)];
                     const double rise = outline(triangle, width, height).depth(centre).second;
-                    depth_differs += error > (is_clipped(triangle) ? 4 : 1) * snap * rise + 0x1p-23;
+                    depth_differs += !(error <= (is_clipped(triangle) ? 4 : 1) * snap * rise + 0x1p-23);
                     continue;
                 }
                 ++different;

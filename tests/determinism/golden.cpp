@@ -98,7 +98,7 @@ void render(const char* name, const in::seabed::any& seabed) {
                      static_cast<int>(level));
         all_equal = false;
     };
-    for (const in::isa level : {in::isa::scalar, in::isa::baseline, in::best_isa()})
+    for (const in::isa level : {in::isa::scalar, in::isa::baseline, in::isa::avx2, in::isa::avx512})
         for (const int tile : {8, 16, 64, 256}) compare(0, tile, level, serial);
     for (const int threads : {1, 2, 3, 8, 16}) {
         thread_pool pool(threads);

@@ -27,6 +27,16 @@ inline int max_subpixel_bits(const overhead& rig) {
     return (std::max)(rig.size.x, rig.size.y) > 16384 ? 15 : 16;
 }
 
+/// Cotangent of the light's elevation where it is lowest in the picture.
+inline double largest_cot_elevation(const overhead_geometry& view) {
+    if (!view.has_near_light()) return view.light().cot_elevation();
+    const glm::dvec3 light = view.light_position();
+    const glm::dvec2 corner = view.half_extent(0);
+    return (numeric::square_root(light.x * light.x + light.y * light.y) +
+            numeric::square_root(corner.x * corner.x + corner.y * corner.y)) /
+           light.z;
+}
+
 }  // namespace detail::inline INSONIFY_FLAGS
 
 namespace accuracy {
@@ -122,7 +132,8 @@ struct settings {
 
     template <class Shape>
     INSONIFY_MEMBER static Shape with_segments(Shape shape, double deviation) {
-        shape.segments = segments_for(shape, static_cast<float>(deviation));
+        constexpr auto largest = static_cast<double>((std::numeric_limits<float>::max)());
+        shape.segments = segments_for(shape, static_cast<float>((std::min)(deviation, largest)));
         return shape;
     }
 };
@@ -174,13 +185,14 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     const detail::seabed_probe probed(bottom, rig, how, truth{}, ex);
     const double pixel = view.ground_sampling();
     const int longer = (std::max)(rig.size.x, rig.size.y);
+    const double lowest_light = detail::largest_cot_elevation(view);
     const auto errors_of = [&](double cells_per_pixel, double texels) {
         Shadow policy{};
         if constexpr (has_map) policy.texels_per_pixel = static_cast<float>(texels);
         errors all = probed.errors_of(cells_per_pixel, policy, ex);
         // An error of height h displaces the shadow of a target by h cot(elevation).
-        const double cot = std::same_as<Shadow, insonify::shadow::none> ? 0 : view.light().cot_elevation();
-        all.shadow_edge = (std::max)(all.shadow_edge, all.height * cot);
+        if constexpr (!std::same_as<Shadow, insonify::shadow::none>)
+            all.shadow_edge = (std::max)(all.shadow_edge, all.height * lowest_light);
         all.silhouette = tolerated.silhouette;
         return all;
     };

@@ -64,6 +64,13 @@ class seabed_probe {
             const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
             chip.position +=
                 glm::dvec2(in_picture.x * cosine - in_picture.y * sine, in_picture.x * sine + in_picture.y * cosine);
+            if (view.has_near_light()) {  // it stays where it is
+                const glm::dvec3 light = view.light_position() - glm::dvec3(in_picture, 0);
+                const double level = numeric::square_root(light.x * light.x + light.y * light.y);
+                chip.light_distance = static_cast<float>(numeric::square_root(level * level + light.z * light.z));
+                chip.grazing = static_cast<float>(numeric::atan2(light.z, level));
+                chip.light_azimuth = static_cast<float>(numeric::atan2(-light.y, -light.x));
+            }
             chip.size = {pixels_, pixels_};
             const double half = view.half_extent(0).x * pixels_ / rig.size.x;
             chip.field_of_view = static_cast<float>(2 * numeric::atan2(half, static_cast<double>(rig.altitude)));

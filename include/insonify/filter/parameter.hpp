@@ -35,6 +35,10 @@ inline void check_size(const std::string& name, int width, int height, const pix
 ///     in::speckle{.variance = {labels.seabed, {0.02f, 0.05f, 0.05f, 0.1f}}}   // by seabed::type
 class parameter {
   public:
+    /// Moving copies: a parameter that was moved from still has its values.
+    INSONIFY_MEMBER parameter(const parameter&) = default;
+    INSONIFY_MEMBER parameter& operator=(const parameter&) = default;
+
     template <std::convertible_to<float> Number>
         requires(std::is_arithmetic_v<Number>)
     INSONIFY_MEMBER parameter(Number value) : values_{static_cast<float>(value)} {}

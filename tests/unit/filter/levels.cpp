@@ -70,6 +70,21 @@ floats by_gamma(int count, double shape, in::isa level) {
     return to;
 }
 
+floats by_taps(int count, bool across, in::isa level) {
+    const auto taps = field_taps(2.7);
+    const auto reach = static_cast<int>(taps.size()) - 1;
+    const floats from = pixels(count + 2 * reach);
+    floats to(static_cast<std::size_t>(count));
+    if (across) {
+        std::vector<const float*> rows;
+        for (int k = 0; k <= 2 * reach; ++k) rows.push_back(from.data() + k);
+        dispatch(taps_across_rows{taps, rows, to.data(), to.size()}, level);
+    } else {
+        dispatch(taps_along_row{taps, from.data() + reach, 1, to.data(), to.size()}, level);
+    }
+    return to;
+}
+
 template <class Fn>
 void same_at_all_levels(const Fn& run) {
     for (const int count : {1, 2, 7, 8, 9, 31, 64, 509, in::run_length}) {
@@ -91,6 +106,9 @@ TEST_CASE("Kernels of filters give the same bytes at every instruction set") {
     same_at_all_levels([](int n, isa level) { return by_rule(multiplied_draw{}, n, level); });
     same_at_all_levels([](int n, isa level) { return by_rule(struck_pixel{}, n, level); });
     same_at_all_levels([](int n, isa level) { return by_rule(echo_factor<in::echo::intensity>{}, n, level); });
+    same_at_all_levels([](int n, isa level) { return by_rule(echo_factor<in::echo::amplitude>{}, n, level); });
+    same_at_all_levels([](int n, isa level) { return by_taps(n, false, level); });
+    same_at_all_levels([](int n, isa level) { return by_taps(n, true, level); });
     same_at_all_levels([](int n, isa level) { return by_poisson(n, 1, level); });
     same_at_all_levels([](int n, isa level) { return by_poisson(n, 255, level); });
     same_at_all_levels([](int n, isa level) { return by_poisson(n, 1e9, level); });
@@ -102,9 +120,10 @@ TEST_CASE("NaN is counted at every instruction set") {
     for (const in::isa level : {in::isa::scalar, in::isa::baseline, in::isa::avx2, in::isa::avx512}) {
         for (const int count : {1, 8, 50}) {
             int found = -1;
-            const floats values = pixels(count);
+            floats values = pixels(count);
+            if (count > 8) values.back() = std::nanf("");  // after the last whole vector
             dispatch(count_nan_kernel{values.data(), count, &found}, level);
-            CHECK(found == (count > 7 ? 1 : 0));
+            CHECK(found == (count > 8 ? 2 : count > 7 ? 1 : 0));
         }
     }
 }

@@ -52,8 +52,8 @@ TEMPLATE_TEST_CASE("Noise on codes is the rounded noise on their float values", 
 }
 
 TEMPLATE_TEST_CASE("Each channel of a colour has noise of its own, and the first that of a gray image", "",
-                   in::gaussian, in::speckle, in::salt_and_pepper, in::rayleigh, in::gamma_speckle, in::rician,
-                   in::poisson) {
+                   in::gaussian, in::speckle, in::gaussian_speckle, in::salt_and_pepper, in::rayleigh,
+                   in::gamma_speckle, in::k_speckle, in::rician, in::poisson) {
     const TestType noise{.seed = 6};
     const in::image<in::rgb<float>> colors(512, 256, {0.2f, 0.2f, 0.2f});
     const auto noisy = colors | noise;
@@ -67,7 +67,8 @@ TEMPLATE_TEST_CASE("Each channel of a colour has noise of its own, and the first
 
     const in::image<in::rgb8> codes(64, 8, {51, 102, 153});
     CHECK((codes | noise) == (codes | in::to_float | noise | in::to_uint8));
-    CHECK((in::image<in::rgb<std::uint16_t>>(5, 5, {1, 2, 3}) | noise).size() == 25);
+    const in::image<in::rgb<std::uint16_t>> wide(64, 8, {13107, 26214, 39321});
+    CHECK((wide | noise) == (wide | in::to_float | noise | in::to_uint16));
 }
 
 TEMPLATE_TEST_CASE("Parts filtered with their origin have the noise of the whole image", "", in::gaussian, in::speckle,
@@ -97,7 +98,9 @@ TEST_CASE("Correlated noise doesn't depend on parts, rows or threads either") {
     const auto part = apply(source.view().part(500, 20, 40, 30), noise, in::serial_executor{}, {500, 20});
     CHECK(part == in::image<float>(whole.view().part(500, 20, 40, 30)));
     // Negative origins are allowed.
-    CHECK(apply(source, noise, in::serial_executor{}, {-40, -7}).size() == source.size());
+    const in::image<float> even(1030, 300, 0.4f);
+    const auto moved = apply(even, noise, in::serial_executor{}, {-40, -7});
+    CHECK(in::image<float>(moved.view().part(40, 7, 990, 293)) == (in::image<float>(990, 293, 0.4f) | noise));
 }
 
 TEST_CASE("Filters write into the caller's memory, and in place") {
@@ -116,7 +119,9 @@ TEST_CASE("Filters write into the caller's memory, and in place") {
     CHECK(in::image<float>(pixels.view().part(100, 1, 300, 3)) == (source.view().part(100, 1, 300, 3) | grain));
     CHECK(pixels(99, 1) == source(99, 1));
     CHECK(pixels(400, 3) == source(400, 3));
+    const auto before = pixels;
     in::apply_in_place(pixels.view(), in::filter_chain<>{});
+    CHECK(pixels == before);
 }
 
 TEST_CASE("A parameter by pixel or by type applies to each pixel") {
@@ -147,6 +152,10 @@ TEST_CASE("A parameter by pixel or by type applies to each pixel") {
     check([](in::parameter p) { return in::gaussian_speckle{.variance = p, .correlation = {1, 1}, .seed = 3}; });
     check([](in::parameter p) { return in::salt_and_pepper{.density = p, .seed = 3}; });
     check([](in::parameter p) { return in::rician{.steady = p, .seed = 3}; });
+    const in::speckle held{.variance = 0.1f, .seed = 3};
+    in::speckle source_of_move = held;
+    const in::speckle moved = std::move(source_of_move);
+    for (const in::speckle& filter : {source_of_move, moved}) CHECK((source | filter) == (source | held));
 
     in::image<float> bad = map;
     bad(599, 3) = -1;
@@ -170,6 +179,13 @@ TEST_CASE("Under a mask, a filter changes and measures the chosen pixels alone")
     const auto noisy = source | in::speckle{.seed = 1}, some = source | in::where(mask, in::speckle{.seed = 1});
     for (std::size_t i = 0; i < source.size(); ++i)
         REQUIRE(some.pixels()[i] == (mask.pixels()[i] != 0 ? noisy : source).pixels()[i]);
+
+    CHECK((source | in::where(mask, in::speckle{.seed = 1} | in::equalize{})) ==
+          (some | in::where(mask, in::equalize{})));
+    const auto part = in::apply(source.view().part(20, 10, 500, 15),
+                                in::where(mask.view().part(20, 10, 500, 15), in::speckle{.seed = 1}),
+                                in::serial_executor{}, {20, 10});
+    CHECK(part == in::image<float>(some.view().part(20, 10, 500, 15)));
 
     const in::image<std::uint8_t> none(600, 30);
     CHECK((source | in::where(none, match)) == source);
@@ -227,7 +243,7 @@ TEMPLATE_TEST_CASE("Noise accepts images of no pixel, one pixel, one row and one
     }
 }
 
-TEST_CASE("Poisson counts exist for means from 1e-6 to 1e9, and infinite pixels are white") {
+TEST_CASE("Poisson noise takes means from 1e-6 to 1e9, and infinite pixels become white") {
     const float inf = std::numeric_limits<float>::infinity();
     CHECK((in::image<float>{{0, -inf, 1e-6f}} | in::poisson{.photons = 1}) == in::image<float>{{0, 0, 0}});
     const auto white = in::image<float>{{inf, 1}} | in::poisson{.photons = 1e9f};

@@ -20,7 +20,7 @@ const in::image<float> gray{{0.1f, 0.2f, 0.3f}, {0.4f, 0.5f, 0.6f}};
 
 const auto use = [](const auto& filter) { (void)(gray | filter); };
 
-/// `FIELD` for a parameter, which is a number or a map of them: as one, and as the last value of a map.
+/// `FIELD` for a parameter, set to one number for all pixels.
 #define PARAMETER(member, ...)                                                            \
     {                                                                                     \
 #member, [](auto& o, double v) { o.member = static_cast<float>(v); }, __VA_ARGS__ \
