@@ -15,7 +15,7 @@ int main() {
 
     const in::side_scan sonar{.ping_spacing = 0.1f, .range = 30, .bins = 600};
     const in::sonar_equation equation{in::spreading_loss{}, in::absorption{}, in::vertical_beam{},
-                                      in::noise_floor{1e-9f}, in::level_gain{}};
+                                      in::noise_floor{1e-13f}, in::level_gain{}};
     const auto options = in::record_options<>{}.with(equation).without_labels();
 
     // The caller's memory: 120 rows of 640 floats, of which the last 40 hold the caller's data.

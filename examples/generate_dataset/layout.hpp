@@ -3,7 +3,7 @@
 //     config.json                                   recipe, seed, version and input checksums; decides every byte
 //     images/<class>/<block>/<id>.png               all images of a class
 //     masks/<block>/<id>_{target,shadow,seabed}.png
-//     values/<block>/<id>.{png,npy,pfm}             with --format png16, npy or pfm
+//     values/<block>/<id>{_16.png,.npy,.pfm}         with --format png16, npy or pfm
 //     records/<block>/<id>.json                     one per image; written last, so that its files are complete
 //     annotations.json  manifest.csv  README.md     tables of all records, and a data card
 //     webdataset/<block>.tar                        with --format webdataset

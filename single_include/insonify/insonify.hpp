@@ -15008,8 +15008,8 @@ INSONIFY_ARITHMETIC_END
 // Bounds on the horizon of a regular grid under parallel light: how high the surface towards the light rises over each
 // cell.
 //
-// A point is in shadow if the surface has a larger u (lit_grid.hpp) somewhere on its ray towards the light. Strips one
-// row wide run along the light, so that no ray leaves its strip. Along each strip the kernel carries two bounds of the
+// A point is in shadow if the surface nearer to the light, in the vertical plane of its ray, has a larger u
+// (lit_grid.hpp) somewhere. Strips one row wide run along the light, so that no ray leaves its strip. Along each strip the kernel carries two bounds of the
 // largest u on its rays: a lower one, the running maximum over columns of the smallest u around the strip, and an upper
 // one, the running maximum of the largest. Points below the lower bound are dark, points above the upper bound lit; the
 // few in between are left to an exact test.

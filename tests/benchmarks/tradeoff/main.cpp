@@ -245,7 +245,7 @@ void list_cells(report::contents& into) {
     for (const report::configuration& w : into.configurations)
         if (w.policy == "exact" && w.name.empty())
             into.knobs.push_back({.name = "cells of the seabed per pixel",
-                                  .oracle = "rays marched over the seabed itself",
+                                  .oracle = "rays marched over four vertices per pixel",
                                   .setting = w.seabed + ", " + report::per_pixel(w.cells),
                                   .error = "shadow " + svg::number(w.edge, 3) + " px",
                                   .ms = w.ms,
