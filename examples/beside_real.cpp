@@ -122,11 +122,11 @@ int main(int argc, char** argv) try {
     const bool has_real = argc > 1 || std::filesystem::exists(real);
     const in::image<float> below = has_real ? examples::read_gray(real) : in::image<float>(2 * rig.bins, 1);
     in::image<float> page((std::max)(2 * rig.bins, below.width()), rig.pings + 12 + below.height(), 1);
+    const int middle = page.width() / 2;
     for (int y = 0; y < rig.pings; ++y)
-        for (int x = 0; x < rig.bins; ++x)
-            page(rig.bins - 1 - x, y) = port(x, y), page(page.width() - rig.bins + x, y) = starboard(x, y);
+        for (int x = 0; x < rig.bins; ++x) page(middle - 1 - x, y) = port(x, y), page(middle + x, y) = starboard(x, y);
     for (int y = 0; y < below.height(); ++y)
-        for (int x = 0; x < below.width(); ++x) page(x, rig.pings + 12 + y) = below(x, y);
+        for (int x = 0; x < below.width(); ++x) page(middle - below.width() / 2 + x, rig.pings + 12 + y) = below(x, y);
     in::write_png(out, page | in::to_uint8);
     if (!has_real) std::printf("no real line at %s: %s shows only the rendered one\n", real.c_str(), out.c_str());
 } catch (const std::exception& error) {

@@ -25,7 +25,8 @@ int main() {
     float nearest = 0;
     for (const float d : depth.pixels()) nearest = (std::max)(nearest, d);
     std::printf("%llu triangles, the nearest %.2f m along the camera's axis\n",
-                static_cast<unsigned long long>(stats.triangles), 0.1 / static_cast<double>(nearest));
+                static_cast<unsigned long long>(stats.triangles), static_cast<double>(scanner.z_near / nearest));
     const auto shade = [=](float d) { return d > 0 ? 0.8f * d / nearest : 0.0f; };
     in::write_png("depth.png", depth | shade);
+    return nearest > 0 ? 0 : 1;
 }

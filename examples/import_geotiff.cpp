@@ -1,7 +1,7 @@
 // A GeoTIFF of depths or heights as the bottom of a picture: import_geotiff <file> <out.png> [-1 for depths]
 //
-// GDAL reads the file (GeoTIFF and a hundred other formats). Gaps of up to ten vertices without data are filled. The
-// roughness of medium sand adds detail below the file's spacing.
+// GDAL reads the file (GeoTIFF and a hundred other formats). Gaps are filled by up to ten vertices from each side.
+// The roughness of medium sand adds detail below the file's spacing.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
@@ -33,8 +33,15 @@ sb::heightfield read_raster(const char* path, float scale) {
     double place[6];
     if (!file || file->GetRasterCount() < 1)
         throw in::io_error(std::string(path) + ": GDAL cannot read this as a raster");
-    if (file->GetGeoTransform(place) != CE_None || place[2] != 0 || place[4] != 0 || place[1] != -place[5])
+    if (file->GetGeoTransform(place) != CE_None || place[2] != 0 || place[4] != 0 ||
+        !(std::abs(place[1] + place[5]) <= 1e-6 * place[1]))
         throw in::io_error(std::string(path) + ": is not north up with square pixels");
+    if (const OGRSpatialReference* const reference = file->GetSpatialRef()) {
+        if (reference->IsGeographic())
+            throw in::io_error(std::string(path) +
+                               ": is in degrees; project it to metres first, as by gdalwarp -t_srs EPSG:32632");
+        for (double& p : place) p *= reference->GetLinearUnits();
+    }
     GDALRasterBand& band = *file->GetRasterBand(1);
     in::image<float> picture(band.GetXSize(), band.GetYSize());
     if (band.RasterIO(GF_Read, 0, 0, picture.width(), picture.height(), picture.row(0).data(), picture.width(),
@@ -50,6 +57,14 @@ sb::heightfield read_raster(const char* path, float scale) {
     return field;
 }
 
+/// The mean of the heights that are known.
+double mean_height(const sb::heightfield& field) {
+    double sum = 0, count = 0;
+    for (const float h : field.heights.pixels())
+        if (in::numeric::is_finite(h)) sum += static_cast<double>(h), count += 1;
+    return count > 0 ? sum / count : 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -62,7 +77,14 @@ int main(int argc, char** argv) try {
             throw in::invalid_input("scale is '" + std::string(text) +
                                     "', expected a number of metres per unit, -1 for depths");
     }
-    const sb::heightfield survey = sb::fill_gaps(read_raster(argv[1], scale), 10);
+    sb::heightfield survey = sb::fill_gaps(read_raster(argv[1], scale), 10);
+
+    // From the western edge, 15 m above the bottom there, which is moved to z = 0: default gains take it to lie there.
+    const glm::dvec2 start = survey.origin;
+    const double length = survey.spacing * (survey.heights.height() - 1);
+    const double edge = static_cast<double>(survey.height_at(start.x, start.y + length / 2));
+    const auto datum = static_cast<float>(in::numeric::is_finite(edge) ? edge : mean_height(survey));
+    for (float& h : survey.heights.pixels()) h -= datum;
 
     sb::roughness finer = sb::roughness_of(in::sediment::medium_sand);
     finer.longest = (std::max)(static_cast<float>(survey.spacing), finer.shortest);
@@ -71,13 +93,9 @@ int main(int argc, char** argv) try {
     in::scene scene;
     scene.seabed = sb::detailed{.field = survey, .surface = finer};
 
-    // From the western edge, 15 m above the bottom there.
-    const glm::dvec2 start = survey.origin;
-    const double length = survey.spacing * (survey.heights.height() - 1);
-    const double ground = static_cast<double>(survey.height_at(start.x, start.y + length / 2));
     const double width = (std::min)(survey.spacing * (survey.heights.width() - 1), 100.0);
     const in::ground_range rig{.position = start,
-                               .altitude = static_cast<float>((ground == ground ? ground : 0.0) + 15),
+                               .altitude = 15,
                                .ping_spacing = 0.1f,
                                .pings = (std::min)(1000, static_cast<int>(length / 0.1) + 1),
                                .range = static_cast<float>(width),

@@ -25,4 +25,5 @@ int main() {
                                                                             : "dark, behind the cube";
         std::printf("%6.2f m, %5.2f m up: %s\n", dive[i].x, dive[i].z, what);
     }
+    return found.shadow.front() == in::labels::is_lit && found.shadow.back() != in::labels::is_lit ? 0 : 1;
 }

@@ -36,4 +36,5 @@ int main() {
     in::write_png("waves_swath.png", in::with_speckle(in::render(scene, sonar)).image | in::display{});
     for (const auto& t : above.labels.legend)
         std::printf("label %d: %s\n", static_cast<int>(t.label), std::string(t.name).c_str());
+    return above.labels.legend.size() == 2 ? 0 : 1;
 }

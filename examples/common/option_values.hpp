@@ -11,13 +11,16 @@
 
 namespace examples {
 
-/// Decimal digits, in [low, high]; -1, 1e3 and 10^12 are refused rather than wrapped or truncated.
+/// Decimal digits, in [low, high]; -1, 1e3 and 10^12 are refused rather than wrapped or truncated, and so is 010, which
+/// CLI11 reads as octal.
 inline CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
     return CLI::Validator(
         [low, high](std::string& text) -> std::string {
             std::uint64_t value = 0;
             const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-            if (status == std::errc{} && end == text.data() + text.size() && value >= low && value <= high) return "";
+            const bool is_octal = text.size() > 1 && text[0] == '0';
+            if (status == std::errc{} && end == text.data() + text.size() && !is_octal && value >= low && value <= high)
+                return "";
             return "'" + text + "' is not a whole number from " + std::to_string(low) + " to " + std::to_string(high);
         },
         "", "whole number");

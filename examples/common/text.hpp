@@ -21,6 +21,9 @@ void write_text(insonify::image<Pixel>& sheet, int x, int y, std::string text, c
         float x, y, z;
         unsigned char color[4];
     };
+    // stb's font has the characters of ASCII.
+    for (char& c : text)
+        if (c < ' ' || c > '~') c = '?';
     std::vector<corner> corners(4096);
     const int quads = stb_easy_font_print(0, 0, text.data(), nullptr, corners.data(),
                                           static_cast<int>(corners.size() * sizeof(corner)));

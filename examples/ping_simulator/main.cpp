@@ -47,22 +47,24 @@ options parse(int argc, char** argv) {
         ->check(examples::folder_to_fill());
     app.add_option("--counts", o.counts, "Number of cylinders, cubes and spheres (308,88,66)")
         ->delimiter(',')
-        ->check(CLI::Range(0, 1'000'000));
+        ->check(examples::whole_number(0, 1'000'000));
     app.add_option("--seabeds", o.seabeds, "Of flat,ripples; taken in turn (flat,ripples)")
         ->delimiter(',')
         ->expected(1, 16)
         ->check(CLI::IsMember({"flat", "ripples"}));
-    app.add_option("--seed", o.seed, "Seed of all random values (1)")->check(CLI::Range(std::int64_t{0}, INT64_MAX));
+    app.add_option("--seed", o.seed, "Seed of all random values (1)")->check(examples::whole_number(0, INT64_MAX));
     app.add_option("--chip", o.chip, "Metres a side (5)")->check(examples::number(0.5, 100));
-    app.add_option("--pixels", o.pixels, "Pixels a side (128)")->check(CLI::Range(16, 4096));
+    app.add_option("--pixels", o.pixels, "Pixels a side (128)")->check(examples::whole_number(16, 4096));
     app.add_option("--threads", o.threads,
                    "Number of threads, 0 for one per hardware thread (0); does not change the output")
-        ->check(CLI::Range(0, 1024));
+        ->check(examples::whole_number(0, 1024));
     try {
         app.parse(argc, argv);
         if (o.counts.size() != pings::class_names.size())
             throw CLI::ValidationError(
                 "--counts", std::to_string(o.counts.size()) + " numbers; there are three classes, as in 308,88,66");
+        if (o.chip / static_cast<double>(o.pixels) > 0.1)
+            throw CLI::ValidationError("--chip", "a pixel is longer than 0.1 m: targets fall between the pings");
     } catch (const CLI::ParseError& error) {
         examples::exit_after(app, error);
     }
@@ -128,6 +130,7 @@ int main(int argc, char** argv) try {
         return std::string("images/") + pings::class_names[kinds[i]] + "/" +
                std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits + ".png";
     };
+    std::filesystem::remove(o.out + "/manifest.csv");  // the new one is written last
     std::set<std::string> files;
     for (std::size_t i = 0; i < kinds.size(); ++i) files.insert(file_of(i));
     remove_other_chips(o.out, files);

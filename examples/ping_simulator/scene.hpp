@@ -81,7 +81,7 @@ inline scene make_scene(std::uint64_t seed, std::uint64_t index, std::size_t kin
         shape = sphere{0.5 * s.size};
     }
 
-    // It lies on the mean slope of the bottom under its footprint, slightly tilted.
+    // At the mean height of the bottom along its axis, pitched by up to 3 degrees at random.
     const double half = 0.5 * s.length, c = std::cos(s.yaw), sn = std::sin(s.yaw);
     double height = 0;
     constexpr int steps = 9;

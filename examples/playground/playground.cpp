@@ -112,7 +112,9 @@ const std::uint8_t* draw(const double* list) {
                                         .field_of_view = static_cast<float>(2 * in::numeric::atan2(1.2, 1.0)),
                                         .size = {s.size, s.size},
                                         .grazing = s.grazing * 1_deg});
-        gray = s.speckle > 0 ? frame.image | in::speckle{.variance = 1 / s.speckle, .seed = seed} : frame.image;
+        gray = s.speckle > 0
+                   ? frame.image | in::gamma_speckle{.looks = s.speckle, .of = in::echo::intensity, .seed = seed}
+                   : frame.image;
         labels = std::move(frame.labels);
     } else {
         add_target(scene, s, {static_cast<double>(width) / 3, 0.5 * static_cast<double>(width)});

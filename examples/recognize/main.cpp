@@ -34,7 +34,7 @@ options parse(int argc, char** argv) {
     app.add_option("--test", o.test, "The simulator's test set: images/<class>/*.png")->required();
     app.add_option("--own", o.own, "Another set of the simulator, which trains the upper bound `ceiling`");
     app.add_option("--references", o.references,
-                   "A third set of the simulator, whose histograms recipe overhead matches");
+                   "A third set of the simulator, whose histograms recipe overhead matches; it needs them");
     app.add_option("--recipes", o.recipes, "Of overhead, ground_range, slant_range; none beside --try (all)")
         ->delimiter(',')
         ->check(CLI::IsMember({"none", "overhead", "ground_range", "slant_range"}));
@@ -43,14 +43,15 @@ options parse(int argc, char** argv) {
     app.add_option("--sizes", o.sizes, "Numbers of training pictures, at least 10 (80,390)")
         ->delimiter(',')
         ->check(examples::whole_number(10, 1'000'000));
-    app.add_option("--seeds", o.seeds, "Number of trainings of each kind (10)")->check(CLI::Range(1, 1000));
+    app.add_option("--seeds", o.seeds, "Number of trainings of each kind (10)")->check(examples::whole_number(1, 1000));
     app.add_option("--synthetic-test", o.synthetic,
                    "Test pictures of each class by a recipe itself; a third of the published numbers (206,191,193)")
         ->delimiter(',')
         ->check(examples::whole_number(1, 1'000'000))
         ->expected(static_cast<int>(classes.size()));
     app.add_option("--threads", o.threads,
-                   "Number of threads, 0 for one per hardware thread (0); does not change the figures");
+                   "Number of threads, 0 for one per hardware thread (0); does not change the figures")
+        ->check(examples::whole_number(0, 1024));
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -73,8 +74,6 @@ features some_of(const features& f, const class_counts& counts, const class_coun
     for (std::size_t i = 0; i < f.kinds.size(); ++i) of_class[f.kinds[i]].push_back(i);
     std::vector<std::size_t> numbers;
     for (std::size_t k = 0; k < 3; ++k) {
-        in::detail::require(counts[k] <= of_class[k].size(), "--sizes", counts[k],
-                            "no more than there are of a class in --own");
         for (std::size_t i = 0; i < counts[k]; ++i) numbers.push_back(of_class[k][(from[k] + i) % of_class[k].size()]);
     }
     return subset(f, numbers);
@@ -93,7 +92,16 @@ class experiment {
         : options_(o),
           pool_(o.threads),
           max_size_(*std::max_element(o.sizes.begin(), o.sizes.end())),
-          test_(features_of(read_set(o.test))) {}
+          test_(features_of(read_set(o.test))),
+          simulators_(o.own.empty() ? features{} : features_of(read_set(o.own))) {
+        if (o.own.empty()) return;
+        const class_counts there = counted(simulators_), needed = counts_of(max_size_);
+        for (std::size_t k = 0; k < 3; ++k)
+            if (needed[k] > there[k])
+                throw in::invalid_input("--sizes " + std::to_string(max_size_) + ": --own has " +
+                                        std::to_string(there[k]) + " of class " + classes[k] + ", " +
+                                        std::to_string(needed[k]) + " are needed");
+    }
 
     /// Trains on a recipe's pictures. A set of another seed tests it on pictures of the same recipe.
     void learn_from(const recipe& r) {
@@ -111,14 +119,13 @@ class experiment {
 
     /// Trains on the simulator's own pictures, of another seed than the test set's: an upper bound for synthetic ones.
     void learn_from_simulator() {
-        const features all = features_of(read_set(options_.own));
-        const class_counts there = counted(all);
+        const class_counts there = counted(simulators_);
         learn(
-            "ceiling", "the simulator's own",
+            "ceiling", "the simulator's own, from sets that overlap",
             [&](std::size_t seed, std::size_t images) {
                 class_counts from;
                 for (std::size_t k = 0; k < 3; ++k) from[k] = seed * there[k] / options_.seeds;
-                return some_of(all, counts_of(images), from);
+                return some_of(simulators_, counts_of(images), from);
             },
             nullptr);
     }
@@ -146,7 +153,7 @@ class experiment {
     options options_;
     in::thread_pool pool_;
     std::size_t max_size_;
-    features test_;
+    features test_, simulators_;
     std::vector<outcome> outcomes_;
 };
 
@@ -156,7 +163,8 @@ std::vector<recipe> chosen(const options& o) {
     for (const recipe& r : recipes())
         if (o.recipes.empty() || std::find(o.recipes.begin(), o.recipes.end(), r.name) != o.recipes.end())
             all.push_back(r);
-    for (const std::string& text : o.tried) all.push_back({"tried", text, CLI::detail::split_up(text), false});
+    for (std::size_t i = 0; i < o.tried.size(); ++i)
+        all.push_back({"tried " + std::to_string(i + 1), o.tried[i], CLI::detail::split_up(o.tried[i]), false});
     return all;
 }
 
@@ -167,12 +175,22 @@ int main(int argc, char** argv) try {
     cv::setNumThreads(1);
     const std::vector<recipe> recipes = chosen(o);
     if (recipes.empty() && o.own.empty()) throw in::invalid_input("--recipes none: needs --try or --own");
+    for (const recipe& r : recipes)
+        if (r.needs_references && o.references.empty())
+            throw in::invalid_input("--recipes " + r.name + ": needs --references, whose histograms it matches");
+    for (const auto& [name, folder] : {std::pair{"--own", o.own}, {"--references", o.references}})
+        if (!folder.empty() && std::filesystem::equivalent(o.test, folder))
+            throw in::invalid_input(std::string(name) + " '" + folder + "' is the test set");
+    std::filesystem::create_directories(o.out);
+    for (const recipe& r : recipes)
+        for (std::size_t k = 0; k < 3; ++k)
+            static_cast<void>(
+                options_of(r, k, o.references.empty() ? std::vector<std::string>{} : class_folders(o.references)));
     experiment e(o);
     for (const recipe& r : recipes) e.learn_from(r);
     if (!o.own.empty()) e.learn_from_simulator();
 
     const std::string report = markdown(e.outcomes(), e.tested());
-    std::filesystem::create_directories(o.out);
     in::write_file(o.out + "/report.md", report);
     in::write_file(o.out + "/confusion.svg", svg(e.outcomes()));
     std::printf("\n%s", report.c_str());

@@ -30,11 +30,15 @@ options parse(int argc, char** argv) {
     app.add_option("--counts", o.counts, "Numbers of real training images, half of them bare (0,20,80,320)")
         ->delimiter(',')
         ->check(examples::whole_number(0, 1'000'000));
-    app.add_option("--seeds", o.seeds, "Number of random splits of the real images (10)")->check(CLI::Range(1, 1000));
+    app.add_option("--seeds", o.seeds, "Number of random splits of the real images (10)")
+        ->check(examples::whole_number(1, 1000));
     app.add_option("--threads", o.threads,
-                   "Number of threads, 0 for one per hardware thread (0); does not change the figures");
+                   "Number of threads, 0 for one per hardware thread (0); does not change the figures")
+        ->check(examples::whole_number(0, 1024));
     try {
         app.parse(argc, argv);
+        std::sort(o.counts.begin(), o.counts.end());
+        o.counts.erase(std::unique(o.counts.begin(), o.counts.end()), o.counts.end());
         for (const std::size_t count : o.counts)
             if (count % 2 != 0) throw CLI::ValidationError("--counts", std::to_string(count) + " is odd");
     } catch (const CLI::ParseError& error) {

@@ -83,7 +83,7 @@ inline std::vector<std::pair<double, double>> mean_curve(const std::vector<std::
         double sum = 0;
         for (const std::vector<roc_point>& curve : curves) {
             std::size_t k = 1;
-            while (k + 1 < curve.size() && curve[k].false_alarms < alarms) ++k;
+            while (k + 1 < curve.size() && curve[k].false_alarms <= alarms) ++k;
             const roc_point &a = curve[k - 1], &b = curve[k];
             const double run = b.false_alarms - a.false_alarms;
             const double share = run > 0 ? std::clamp((alarms - a.false_alarms) / run, 0.0, 1.0) : 1;
@@ -129,12 +129,13 @@ inline std::string curves_svg(const std::vector<trial_result>& results) {
     double lowest = 1;
     for (const trial_result& l : results) lowest = (std::min)(lowest, spread(l.area[l.better()]).lowest);
     lowest = (std::min)(std::floor(lowest * 50) / 50, 0.98);
-    // Numbers of images on a logarithmic scale, with 0 at its left end.
-    const auto place = [](std::size_t real) { return real == 0 ? 0.0 : std::log2(static_cast<double>(real) / 5); };
+    // Numbers of images on a logarithmic scale that has 0 at its left end.
+    const auto place = [](std::size_t real) { return std::log2(1 + static_cast<double>(real) / 5); };
     std::vector<std::pair<double, std::string>> x_ticks;
     std::vector<double> y_ticks;
     for (const trial_result& l : results)
-        if (l.generated) x_ticks.emplace_back(place(l.real), std::to_string(l.real));
+        if (x_ticks.empty() || x_ticks.back().first < place(l.real))
+            x_ticks.emplace_back(place(l.real), std::to_string(l.real));
     for (int i = 0; i <= 5; ++i) y_ticks.push_back(lowest + (1 - lowest) * i / 5);
     detail::axes a{.x_low = -0.3, .x_high = place(results.back().real) + 0.3, .y_low = lowest};
     std::string body = a.grid(x_ticks, y_ticks, 3) + a.titles("real training images", "area under the ROC curve");

@@ -121,7 +121,6 @@ inline double separability(const std::vector<chip>& real, const std::vector<chip
     insonify::random_sequence random(1, 0x61706172u);
     for (std::size_t i = all.size(); i > 1; --i)
         std::swap(all[i - 1], all[random.below(static_cast<std::uint32_t>(i))]);
-    const double share = static_cast<double>(real.size()) / static_cast<double>(all.size());
     std::vector<int> truth;
     std::vector<double> scores;
     for (std::size_t part = 0; part < 5; ++part) {
@@ -133,7 +132,7 @@ inline double separability(const std::vector<chip>& real, const std::vector<chip
             else
                 train.add(all[i].first->texture, all[i].second);
         }
-        for (const double score : forest_predictions(train, test, part + 1).scores) scores.push_back(score - share);
+        for (const double score : forest_predictions(train, test, part + 1).scores) scores.push_back(score);
     }
     return area_under(roc_of(truth, scores));
 }

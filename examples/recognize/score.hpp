@@ -37,9 +37,10 @@ struct confusion {
     double accuracy() const {
         return sum([&](std::size_t k) { return counts[k][k]; }) / sum([&](std::size_t k) { return actual(k); });
     }
-    /// The mean of the classes' recalls: 1 / Classes for guessing and for one constant answer.
+    /// The mean recall of the classes that were tested: of all classes, 1 / Classes for guessing and for one constant
+    /// answer.
     double balanced_accuracy() const {
-        return sum([&](std::size_t k) { return recall(k); }) / static_cast<double>(Classes);
+        return sum([&](std::size_t k) { return recall(k); }) / sum([&](std::size_t k) { return actual(k) > 0; });
     }
     double macro_f1() const {
         return sum([&](std::size_t k) {

@@ -158,7 +158,7 @@ def picture(shape, seed):
 
     # Amplitudes are summed on half pixels and blurred by pulse and beam.
     fine = PIXEL / 2
-    count = int((EXTENT + 2 * BORDER) / fine)
+    count = round((EXTENT + 2 * BORDER) / fine)
     frequency = np.fft.fftfreq(count, fine)
     blur = [np.exp(-2 * (np.pi * width / (2 * np.sqrt(np.log(2))) * frequency) ** 2) for width in (along, across)]
     density = 6 / (across * along)  # scatterers a square metre
@@ -192,7 +192,7 @@ def picture(shape, seed):
         place = (row * count + column)[inside].astype(int)
         summed = np.bincount(place, total.real[inside], count**2) + 1j * np.bincount(place, total.imag[inside], count**2)
         field = np.fft.ifft2(np.fft.fft2(summed.reshape(count, count)) * blur[0][:, None] * blur[1])
-        skip = int(BORDER / fine)
+        skip = round(BORDER / fine)
         field = field[skip : skip + 2 * SIZE : 2, skip : skip + 2 * SIZE : 2]
         if floor is None:
             floor = np.sqrt(np.mean(np.abs(field) ** 2) * noise / 2)
@@ -248,7 +248,7 @@ def generated(generator, folder, seed, whites, knows_looks):
     write_plan(plan, seed, 130, whites, knows_looks)
     shutil.rmtree(folder, ignore_errors=True)
     subprocess.run([generator, "--out", folder, "--plan", plan, "--seed", str(seed)], check=True,
-                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                   stdout=subprocess.DEVNULL)
     with open(folder / "manifest.csv", newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     return [folder / row["file"] for row in rows], [row["class"] for row in rows]

@@ -20,12 +20,13 @@ class Recognition(unittest.TestCase):
         cls.scratch = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.scratch.cleanup)
         cls.folder = pathlib.Path(cls.scratch.name)
-        for seed, name, counts in (1, "test", "4,3,3"), (2, "own", "7,9,10"), (4, "another", "3,3,3"):
+        for seed, name, counts in (1, "test", "4,3,3"), (2, "own", "7,9,10"), (4, "another", "3,3,3"), (5, "references", "2,2,2"):
             run(SIMULATOR, "--out", cls.folder / name, "--seed", seed, "--counts", counts)
 
     def report(self, name, *options, test="test"):
         out = self.folder / name
-        run(RECOGNIZE, "--out", out, "--test", self.folder / test, "--own", self.folder / "own", *QUICK, *options)
+        run(RECOGNIZE, "--out", out, "--test", self.folder / test, "--own", self.folder / "own",
+            "--references", self.folder / "references", *QUICK, *options)
         self.assertTrue((out / "confusion.svg").read_text().endswith("</svg>\n"))
         return (out / "report.md").read_text()
 
@@ -50,8 +51,13 @@ class Recognition(unittest.TestCase):
 
     def test_impossible_options_are_refused_with_a_reason(self):
         self.assertIn("holds no PNG", run(RECOGNIZE, "--out", self.folder / "c", "--test", self.folder, expect=1))
-        self.assertIn("--own", run(RECOGNIZE, "--out", self.folder / "c", "--test", self.folder / "test", "--own",
-                                   self.folder / "own", "--recipes", "none", "--sizes", 300, expect=1))
+        for reason, *options in (
+            ("--sizes 300: --own has 7 of class cylinder, 79 are needed", "--own", self.folder / "own", "--recipes", "none",
+             "--sizes", 300),
+            ("is the test set", "--own", self.folder / "test"),
+            ("needs --references", "--recipes", "overhead"),
+        ):
+            self.assertIn(reason, run(RECOGNIZE, "--out", self.folder / "c", "--test", self.folder / "test", *options, expect=1))
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@
 #include <insonify/insonify.hpp>
 
 #include <map>
+#include <optional>
 #include <set>
 
 namespace survey {
@@ -58,10 +59,12 @@ class target_field {
     /// The squares within `reach` metres of any of the pings.
     std::set<square> around(std::span<const in::ping> pings, double reach) const {
         std::set<square> squares;
+        std::optional<square> last_low, last_high;  // mostly those of the ping before
         for (const in::ping& p : pings) {
             const square low = square_at({p.position.x - reach, p.position.y - reach});
             const square high = square_at({p.position.x + reach, p.position.y + reach});
-            if (squares.contains(low) && squares.contains(high)) continue;
+            if (low == last_low && high == last_high) continue;
+            last_low = low, last_high = high;
             for (std::int64_t y = low.second; y <= high.second; ++y)
                 for (std::int64_t x = low.first; x <= high.first; ++x) squares.emplace(x, y);
         }

@@ -37,19 +37,21 @@ inline options parse(int argc, char** argv) {
     app.add_option("--ping-rate", o.driving.ping_rate, "Pings per second (15)")->check(examples::number(0.1, 1000.0));
     app.add_option("--turn-rate", o.driving.turn_rate, "Maximum turn rate, degrees per second (6)")
         ->check(examples::number(0.1, 360.0));
-    app.add_option("--altitude", o.driving.altitude, "Mean altitude, metres (6)")->check(examples::number(0.1, 1000.0));
+    app.add_option("--altitude", o.driving.altitude, "Mean altitude over the datum, metres (6)")
+        ->check(examples::number(0.1, 1000.0));
     app.add_option("--altitude-change", o.driving.altitude_change,
                    "Amplitude of slow changes of altitude, metres (1.5)")
         ->check(examples::number(0, 1000));
     app.add_option("--heave", o.driving.heave, "Amplitude of the heave by the swell, metres (0.15)")
         ->check(examples::number(0, 100));
     app.add_option("--range", o.range, "Range of each side, metres (30)")->check(examples::number(1.0, 1e4));
-    app.add_option("--bins", o.bins, "Bins of each side (1024)")->check(CLI::Range(8, 65536));
+    app.add_option("--bins", o.bins, "Bins of each side (1024)")->check(examples::whole_number(8, 65536));
     app.add_option("--beam", o.beam, "Along-track beamwidth, degrees (0.3)")->check(examples::number(1e-3, 20.0));
     app.add_option("--targets", o.targets, "Targets per 10 m x 10 m (0.5)")->check(examples::number(0.0, 1.0));
     app.add_option("--bottom", o.bottom, "ripples+mud, ripples+sand, sand+rock or mud+rock (ripples+mud)")
         ->check(CLI::IsMember({"ripples+mud", "ripples+sand", "sand+rock", "mud+rock"}));
-    app.add_option("--page", o.page, "Rows of a page of the waterfall (1024)")->check(CLI::Range(16, 16384));
+    app.add_option("--page", o.page, "Rows of a page of the waterfall (1024)")
+        ->check(examples::whole_number(16, 16384));
     app.add_option("--seed", o.seed, "Seed of the seabed and the targets (1)")
         ->check(examples::whole_number(0, UINT64_MAX));
     app.add_option("--threads", o.threads,
@@ -60,6 +62,9 @@ inline options parse(int argc, char** argv) {
         if (o.driving.altitude_change + o.driving.heave >= o.driving.altitude)
             throw CLI::ValidationError("--altitude", CLI::detail::to_string(o.driving.altitude) +
                                                          " m does not exceed --altitude-change and --heave together");
+        if (std::int64_t{6} * o.bins * o.page > std::int64_t{1} << 29)
+            throw CLI::ValidationError("--page", std::to_string(o.page) + " rows of 2 x " + std::to_string(o.bins) +
+                                                     " bins are more than a PNG of 2^29 bytes holds");
     } catch (const CLI::ParseError& error) {
         examples::exit_after(app, error);
     }

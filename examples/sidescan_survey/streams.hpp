@@ -81,7 +81,7 @@ class pages {
     pages(const std::string& folder, int width, int height) : folder_(folder), page_(width, height) {
         std::vector<std::filesystem::path> earlier;
         for (const auto& entry : std::filesystem::directory_iterator(folder))
-            if (entry.path().filename().string().starts_with("page_")) earlier.push_back(entry.path());
+            if (entry.is_regular_file() && is_page(entry.path().filename().string())) earlier.push_back(entry.path());
         for (const std::filesystem::path& page : earlier) std::filesystem::remove(page);
     }
 
@@ -101,6 +101,15 @@ class pages {
     }
 
   private:
+    /// page_0000.png, page_0000_copper.png and so on.
+    static bool is_page(std::string_view name) {
+        constexpr std::string_view begin = "page_";
+        if (!name.starts_with(begin)) return false;
+        name.remove_prefix(begin.size());
+        const std::size_t digits = (std::min)(name.find_first_not_of("0123456789"), name.size());
+        return digits >= 4 && (name.substr(digits) == ".png" || name.substr(digits) == "_copper.png");
+    }
+
     std::string folder_;
     in::image<std::uint8_t> page_;
     int used_ = 0, count_ = 0;

@@ -47,6 +47,7 @@ inline std::vector<glm::dvec2> lawnmower(double length, double width, double bet
 /// @throws io_error that names the line that isn't two numbers
 inline std::vector<glm::dvec2> parse_waypoints(std::string_view text, const std::string& name) {
     std::vector<glm::dvec2> points;
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // the mark of UTF-8
     for (std::size_t number = 1; !text.empty(); ++number) {
         const std::size_t end = (std::min)(text.find('\n'), text.size());
         std::string_view line = text.substr(0, end);

@@ -5105,9 +5105,9 @@ void run_pass(image_view<const From> from, image_view<To> to, const Pass& pass, 
     require_range("origin.x", origin.x, -farthest, farthest, "within 2^30");
     require_range("origin.y", origin.y, -farthest, farthest, "within 2^30");
     // Correlated noise also draws the pixels around the image.
-    constexpr std::int64_t last = (std::int64_t{1} << 31) - 1024;
-    require(std::int64_t{origin.x} + from.width() <= last, "origin.x", origin.x, "at most 2^31 - 1024 less the width");
-    require(std::int64_t{origin.y} + from.height() <= last, "origin.y", origin.y,
+    constexpr std::int64_t most = (std::int64_t{1} << 31) - 1024;
+    require(std::int64_t{origin.x} + from.width() <= most, "origin.x", origin.x, "at most 2^31 - 1024 less the width");
+    require(std::int64_t{origin.y} + from.height() <= most, "origin.y", origin.y,
             "at most 2^31 - 1024 less the height");
     Pass prepared = pass;
     prepare_pass(prepared, {origin.x, origin.y, from.width(), from.height()});

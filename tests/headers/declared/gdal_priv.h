@@ -18,8 +18,14 @@ class GDALRasterBand {
     CPLErr RasterIO(GDALRWFlag, int x, int y, int width, int height, void* into, int columns, int rows, GDALDataType,
                     long long pixel_stride, long long row_stride);
 };
+class OGRSpatialReference {
+  public:
+    int IsGeographic() const;
+    double GetLinearUnits(const char** name = nullptr) const;
+};
 class GDALDataset {
   public:
+    const OGRSpatialReference* GetSpatialRef() const;
     int GetRasterCount();
     GDALRasterBand* GetRasterBand(int number);
     CPLErr GetGeoTransform(double* transform);
