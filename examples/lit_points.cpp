@@ -25,5 +25,5 @@ int main() {
                                                                             : "dark, behind the cube";
         std::printf("%6.2f m, %5.2f m up: %s\n", dive[i].x, dive[i].z, what);
     }
-    return found.shadow.front() == in::labels::is_lit && found.shadow.back() != in::labels::is_lit ? 0 : 1;
+    return found.shadow[0] == in::labels::is_lit && found.shadow[18] == 1 ? 0 : 1;  // before the cube, and in it
 }

@@ -63,8 +63,8 @@ options parse(int argc, char** argv) {
         if (o.counts.size() != pings::class_names.size())
             throw CLI::ValidationError(
                 "--counts", std::to_string(o.counts.size()) + " numbers; there are three classes, as in 308,88,66");
-        if (o.chip / static_cast<double>(o.pixels) > 0.1)
-            throw CLI::ValidationError("--chip", "a pixel is longer than 0.1 m: targets fall between the pings");
+        if (o.chip / static_cast<double>(o.pixels) > 0.4)
+            throw CLI::ValidationError("--chip", "a pixel is longer than 0.4 m, the smallest target");
     } catch (const CLI::ParseError& error) {
         examples::exit_after(app, error);
     }

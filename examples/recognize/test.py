@@ -50,7 +50,8 @@ class Recognition(unittest.TestCase):
         self.assertEqual(own[0], own[1])
 
     def test_impossible_options_are_refused_with_a_reason(self):
-        self.assertIn("holds no PNG", run(RECOGNIZE, "--out", self.folder / "c", "--test", self.folder, expect=1))
+        self.assertIn("holds no PNG", run(RECOGNIZE, "--out", self.folder / "c", "--test", self.folder,
+                                           "--recipes", "slant_range", expect=1))
         for reason, *options in (
             ("--sizes 300: --own has 7 of class cylinder, 79 are needed", "--own", self.folder / "own", "--recipes", "none",
              "--sizes", 300),

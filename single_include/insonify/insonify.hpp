@@ -5564,6 +5564,7 @@ template <class F>
 struct where_filter {
     image_view<const std::uint8_t> mask;
     F filter;
+    std::shared_ptr<const image<std::uint8_t>> kept{};  ///< the mask, if it was a temporary
 
     using is_filter = std::true_type;
 
@@ -5584,12 +5585,18 @@ struct where_filter {
 ///
 ///     image | where(is_seabed, match_histogram(pixels_where(reference_mask, reference)))
 ///
-/// @param mask    of the image's size; its pixels must exist until the filter has run
+/// @param mask    of the image's size; its pixels must exist until the filter has run. A temporary image is kept
 /// @param filter  of pixels or measured, not of images, with results of the same pixel type
 template <class F>
     requires(!detail::is_chain<std::decay_t<F>>)
 where_filter<std::decay_t<F>> where(image_view<const std::uint8_t> mask, F&& filter) {
     return {mask, std::forward<F>(filter)};
+}
+template <class F>
+    requires(!detail::is_chain<std::decay_t<F>>)
+where_filter<std::decay_t<F>> where(image<std::uint8_t>&& mask, F&& filter) {
+    const auto kept = std::make_shared<const image<std::uint8_t>>(std::move(mask));
+    return {kept->view(), std::forward<F>(filter), kept};
 }
 /// The same for each stage of a chain.
 template <class... Stages>
@@ -5597,6 +5604,15 @@ filter_chain<where_filter<Stages>...> where(image_view<const std::uint8_t> mask,
     return std::apply(
         [&](const Stages&... stages) {
             return filter_chain<where_filter<Stages>...>{{{mask, stages}...}};
+        },
+        chain.stages);
+}
+template <class... Stages>
+filter_chain<where_filter<Stages>...> where(image<std::uint8_t>&& mask, const filter_chain<Stages...>& chain) {
+    const auto kept = std::make_shared<const image<std::uint8_t>>(std::move(mask));
+    return std::apply(
+        [&](const Stages&... stages) {
+            return filter_chain<where_filter<Stages>...>{{{kept->view(), stages, kept}...}};
         },
         chain.stages);
 }
@@ -19306,9 +19322,11 @@ inline namespace INSONIFY_FLAGS {
 
 /// The small pictures that `settings_for` draws.
 struct probe {
-    int chips = 4;              ///< their number, distributed over the large picture
-    int pixels = 128;           ///< along a side
-    double finest = 4;          ///< cells per pixel of the ground truth, and the most that settings take
+    int chips = 4;     ///< their number, distributed over the large picture
+    int pixels = 128;  ///< along a side
+    /// Cells per pixel of the ground truth, and the most that settings take; grids of more than half as many are
+    /// compared with a truth of twice as many.
+    double finest = 4;
     double usable_share = 0.7;  ///< fraction of the budget that they may use; the rest is for other parts of the seabed
 };
 
@@ -19619,13 +19637,20 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     };
     using truth = std::conditional_t<has_map, insonify::shadow::exact, Shadow>;
     const detail::seabed_probe probed(bottom, rig, how, truth{}, ex);
+    std::optional<detail::seabed_probe> finer;  // made when a grid is tried that is nearly as fine as the truth
     const double pixel = view.ground_sampling();
     const int longer = (std::max)(rig.size.x, rig.size.y);
     const double lowest_light = detail::largest_cot_elevation(view);
     const auto errors_of = [&](double cells_per_pixel, double texels) {
         Shadow policy{};
         if constexpr (has_map) policy.texels_per_pixel = static_cast<float>(texels);
-        errors all = probed.errors_of(cells_per_pixel, policy, ex);
+        const bool is_fine = cells_per_pixel > 0.5 * how.finest;
+        if (is_fine && !finer) {
+            probe twice = how;
+            twice.finest *= 2;
+            finer.emplace(bottom, rig, twice, truth{}, ex);
+        }
+        errors all = (is_fine ? *finer : probed).errors_of(cells_per_pixel, policy, ex);
         // An error of height h displaces the shadow of a target by h cot(elevation).
         if constexpr (!std::same_as<Shadow, insonify::shadow::none>)
             all.shadow_edge = (std::max)(all.shadow_edge, all.height * lowest_light);
@@ -24887,9 +24912,13 @@ template <class P>
 concept noise_part = requires(const P& p) {
     { p.noise() } -> std::convertible_to<double>;
 };
+/// Stands for the function object that gains get, which is of another type in each equation.
+struct any_level {
+    double operator()(double sine) const;
+};
 template <class P>
-concept gain_part = requires(const P& p, const flat_echo& e, double (*level)(double)) {
-    { p.gain(e, level) } -> std::convertible_to<double>;
+concept gain_part = requires(const P& p, const flat_echo& e, const any_level& level_at) {
+    { p.gain(e, level_at) } -> std::convertible_to<double>;
 };
 }  // namespace detail::inline INSONIFY_FLAGS
 
@@ -24900,9 +24929,13 @@ concept equation_part = detail::direction_part<P> || detail::range_part<P> || de
 
 /// A list of parts, as in `sonar_equation{spreading_loss{}, absorption{}, time_varied_gain{}}`, in any order; at
 /// most one horizontal beam and one pulse. Gains multiply, and a level_gain takes no account of others: use one.
-template <equation_part... Parts>
+template <class... Parts>
 class sonar_equation {
   public:
+    static_assert((equation_part<Parts> && ...),
+                  "a part of the sonar equation has one of over_direction(across, down), over_range(metres), "
+                  "range_length(), noise() and gain(flat_echo, level_at), or footprint(range), reach(range) and "
+                  "pattern(along, range); they are const and return double");
     static constexpr bool has_ranges = (detail::range_part<Parts> || ...) || (detail::footprint_part<Parts> || ...);
     static constexpr bool has_noise = (detail::noise_part<Parts> || ...);
     static constexpr bool has_gain = (detail::gain_part<Parts> || ...);
@@ -26543,7 +26576,9 @@ class ping_tracer {
         for (std::size_t k = 0; k < fan_.size(); ++k) {
             const double across = fan_[k].sine * cosine_roll + fan_[k].cosine * sine_roll,
                          down = fan_[k].cosine * cosine_roll - fan_[k].sine * sine_roll;
-            ray_power_[k] = thickness * static_cast<float>(fan_[k].width * equation_.over_direction(across, down));
+            const double factor = equation_.over_direction(across, down);
+            insonify::detail::require(factor >= 0, "over_direction() of the sonar equation", factor, "0 or more");
+            ray_power_[k] = thickness * static_cast<float>(fan_[k].width * factor);
         }
     }
 
@@ -26709,7 +26744,7 @@ class ping_tracer {
     /// angle, times the law.
     float power_of(std::size_t k, double range, float grazing_sine) const {
         const float sine = (std::min)((std::max)(grazing_sine, min_grazing_sine), 1.0f);
-        return static_cast<float>(range) * ray_power_[k] * law_(sine) / sine;
+        return static_cast<float>(range) * ray_power_[k] * static_cast<float>(law_(sine)) / sine;
     }
 
     const scene& scene_;
@@ -26750,24 +26785,29 @@ inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// The longer of a bin and the ping spacing; in coarse pictures a fiftieth of the altitude, so that relief and targets
-/// are not missed; at least 1/2048 of the range.
+/// are not missed, unless the nominal altitude is not above 0; at least 1/2048 of the range.
 inline double default_cell(const range_bins& window) {
-    const double picture = (std::max)(window.bin(), static_cast<double>(window.ping_spacing));
-    return (std::max)(static_cast<double>(window.range) / 2048,
-                      (std::min)(picture, static_cast<double>(window.altitude) / 50));
+    double cell = (std::max)(window.bin(), static_cast<double>(window.ping_spacing));
+    if (window.altitude > 0) cell = (std::min)(cell, static_cast<double>(window.altitude) / 50);
+    return (std::max)(static_cast<double>(window.range) / 2048, cell);
 }
 
 /// One factor for each bin, computed anew where a ping's altitude differs from that of the last.
 class bin_factors {
   public:
+    /// @param name    of the function of the sonar equation
     /// @param factor  factor(bin): at this altitude
+    /// @throws invalid_input for a factor that is negative or NaN
     template <class Factor>
-    std::span<const float> at(double altitude, int bins, const Factor& factor) {
+    std::span<const float> at(double altitude, int bins, std::string_view name, const Factor& factor) {
         if (values_.empty() || altitude != altitude_) {
             altitude_ = altitude;
             values_.clear();
-            for (std::size_t b = 0; b < static_cast<std::size_t>(bins); ++b)
-                values_.push_back(static_cast<float>((std::min)(factor(b), static_cast<double>(largest))));
+            for (std::size_t b = 0; b < static_cast<std::size_t>(bins); ++b) {
+                const double value = factor(b);
+                require(value >= 0, name, value, "0 or more");
+                values_.push_back(static_cast<float>((std::min)(value, static_cast<double>(largest))));
+            }
         }
         return values_;
     }
@@ -26793,6 +26833,8 @@ class recorder {
         for (std::size_t i = 0; i < track.size(); ++i) validate(track[i], element_name("track", i));
         // Either end is a rounded float, so that the difference may be less than the metres that were meant.
         const double recorded = static_cast<double>(window.range) - static_cast<double>(window.first_range);
+        require(equation_.pulse_length() >= 0, "pulse.length", equation_.pulse_length(), "0 metres or more");
+        require_not_negative("noise() of the sonar equation", equation_.noise());
         require(equation_.pulse_length() <= recorded + 0x1p-23 * static_cast<double>(window.range), "pulse.length",
                 equation_.pulse_length(), "at most the metres of range that are recorded");
         out_.rows.side = window.facing;
@@ -26872,7 +26914,7 @@ class recorder {
     std::span<const float> losses_at(const ping& p, bin_factors& losses) const {
         if (!equation_.has_ranges()) return {};
         const double altitude = window_.counts_time ? 0 : p.position.z;
-        return losses.at(altitude, window_.bins,
+        return losses.at(altitude, window_.bins, "over_range() of the sonar equation",
                          [&](std::size_t b) { return equation_.over_range(slant_of(b, altitude), spacing()); });
     }
 
@@ -26952,7 +26994,7 @@ class recorder {
             bin_factors gains;
             for (std::size_t i = from; i < to; ++i) {
                 const double altitude = track_[i].position.z;
-                const auto gain = gains.at(altitude, window_.bins, [&](std::size_t b) {
+                const auto gain = gains.at(altitude, window_.bins, "gain() of the sonar equation", [&](std::size_t b) {
                     return equation_.gain(
                         {slant_of(b, altitude), altitude, window_.bin(), spacing(), window_.counts_time});
                 });
@@ -27771,7 +27813,7 @@ class scene_occlusion {
           built_(policy.build(casters(), from_centre(light), local(within), ex)) {}
 
     /// @param at  in the world, within the bounds. This is not checked: the seabed is not sampled for points outside,
-    ///            which may come out lit
+    ///            which may come out lit, as do points that are not finite
     template <executor_argument E = serial_executor>
     occlusion_results test(std::span<const glm::dvec3> at, E&& ex = {}) const {
         occlusion_results all{std::vector<float>(at.size()), std::vector<std::uint16_t>(at.size())};

@@ -13,6 +13,7 @@
 
 #include <concepts>
 #include <limits>
+#include <optional>
 #include <type_traits>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -183,13 +184,20 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     };
     using truth = std::conditional_t<has_map, insonify::shadow::exact, Shadow>;
     const detail::seabed_probe probed(bottom, rig, how, truth{}, ex);
+    std::optional<detail::seabed_probe> finer;  // made when a grid is tried that is nearly as fine as the truth
     const double pixel = view.ground_sampling();
     const int longer = (std::max)(rig.size.x, rig.size.y);
     const double lowest_light = detail::largest_cot_elevation(view);
     const auto errors_of = [&](double cells_per_pixel, double texels) {
         Shadow policy{};
         if constexpr (has_map) policy.texels_per_pixel = static_cast<float>(texels);
-        errors all = probed.errors_of(cells_per_pixel, policy, ex);
+        const bool is_fine = cells_per_pixel > 0.5 * how.finest;
+        if (is_fine && !finer) {
+            probe twice = how;
+            twice.finest *= 2;
+            finer.emplace(bottom, rig, twice, truth{}, ex);
+        }
+        errors all = (is_fine ? *finer : probed).errors_of(cells_per_pixel, policy, ex);
         // An error of height h displaces the shadow of a target by h cot(elevation).
         if constexpr (!std::same_as<Shadow, insonify::shadow::none>)
             all.shadow_edge = (std::max)(all.shadow_edge, all.height * lowest_light);

@@ -26,9 +26,11 @@ inline namespace INSONIFY_FLAGS {
 
 /// The small pictures that `settings_for` draws.
 struct probe {
-    int chips = 4;              ///< their number, distributed over the large picture
-    int pixels = 128;           ///< along a side
-    double finest = 4;          ///< cells per pixel of the ground truth, and the most that settings take
+    int chips = 4;     ///< their number, distributed over the large picture
+    int pixels = 128;  ///< along a side
+    /// Cells per pixel of the ground truth, and the most that settings take; grids of more than half as many are
+    /// compared with a truth of twice as many.
+    double finest = 4;
     double usable_share = 0.7;  ///< fraction of the budget that they may use; the rest is for other parts of the seabed
 };
 

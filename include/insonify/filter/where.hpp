@@ -4,6 +4,9 @@
 #include <insonify/filter/parameter.hpp>
 #include <insonify/filter/pipe.hpp>
 
+#include <memory>
+#include <utility>
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
@@ -74,6 +77,7 @@ template <class F>
 struct where_filter {
     image_view<const std::uint8_t> mask;
     F filter;
+    std::shared_ptr<const image<std::uint8_t>> kept{};  ///< the mask, if it was a temporary
 
     using is_filter = std::true_type;
 
@@ -94,12 +98,18 @@ struct where_filter {
 ///
 ///     image | where(is_seabed, match_histogram(pixels_where(reference_mask, reference)))
 ///
-/// @param mask    of the image's size; its pixels must exist until the filter has run
+/// @param mask    of the image's size; its pixels must exist until the filter has run. A temporary image is kept
 /// @param filter  of pixels or measured, not of images, with results of the same pixel type
 template <class F>
     requires(!detail::is_chain<std::decay_t<F>>)
 where_filter<std::decay_t<F>> where(image_view<const std::uint8_t> mask, F&& filter) {
     return {mask, std::forward<F>(filter)};
+}
+template <class F>
+    requires(!detail::is_chain<std::decay_t<F>>)
+where_filter<std::decay_t<F>> where(image<std::uint8_t>&& mask, F&& filter) {
+    const auto kept = std::make_shared<const image<std::uint8_t>>(std::move(mask));
+    return {kept->view(), std::forward<F>(filter), kept};
 }
 /// The same for each stage of a chain.
 template <class... Stages>
@@ -107,6 +117,15 @@ filter_chain<where_filter<Stages>...> where(image_view<const std::uint8_t> mask,
     return std::apply(
         [&](const Stages&... stages) {
             return filter_chain<where_filter<Stages>...>{{{mask, stages}...}};
+        },
+        chain.stages);
+}
+template <class... Stages>
+filter_chain<where_filter<Stages>...> where(image<std::uint8_t>&& mask, const filter_chain<Stages...>& chain) {
+    const auto kept = std::make_shared<const image<std::uint8_t>>(std::move(mask));
+    return std::apply(
+        [&](const Stages&... stages) {
+            return filter_chain<where_filter<Stages>...>{{{kept->view(), stages, kept}...}};
         },
         chain.stages);
 }

@@ -61,7 +61,7 @@ class scene_occlusion {
           built_(policy.build(casters(), from_centre(light), local(within), ex)) {}
 
     /// @param at  in the world, within the bounds. This is not checked: the seabed is not sampled for points outside,
-    ///            which may come out lit
+    ///            which may come out lit, as do points that are not finite
     template <executor_argument E = serial_executor>
     occlusion_results test(std::span<const glm::dvec3> at, E&& ex = {}) const {
         occlusion_results all{std::vector<float>(at.size()), std::vector<std::uint16_t>(at.size())};

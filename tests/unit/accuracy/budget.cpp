@@ -106,6 +106,24 @@ TEST_CASE("Scenes stay within a budget of 1 or 4 pixels of shadow edge, and the 
     }
 }
 
+TEST_CASE("What is expected of the finest grid is its error, not its difference from itself") {
+    in::thread_pool pool(2);
+    const in::overhead rig{.altitude = 4, .size = {96, 96}, .grazing = 6_deg};
+    in::scene scene;
+    scene.seabed = sb::mud{.seed = 4};
+    const double pixel = in::overhead_geometry(rig).ground_sampling();
+    const auto how = acc::settings_for({.shadow_edge = 1e-4, .intensity = 1e-4}, scene.seabed, rig,
+                                       {.chips = 2, .pixels = 80}, pool);
+    CHECK(how.cell == Approx(pixel / 4));
+    const auto drawn = in::render(scene, rig, how.options(), pool),
+               truth = in::render(scene, rig, in::render_options<>{.cell = pixel / 16}, pool);
+    const double rmse = acc::compare_images(drawn.image, truth.image).rmse();
+    CAPTURE(how.expected.intensity, rmse);
+    CHECK(how.expected.intensity > 0.3 * rmse);
+    CHECK(how.expected.shadow_edge > 0);
+    CHECK_FALSE(acc::is_within(how.expected, {.shadow_edge = 1e-4, .intensity = 1e-4}));
+}
+
 TEST_CASE("Pictures stay within a budget of intensity") {
     const trial t = random_trial(2, 96);
     in::scene scene;

@@ -187,6 +187,15 @@ TEST_CASE("Under a mask, a filter changes and measures the chosen pixels alone")
                                 in::serial_executor{}, {20, 10});
     CHECK(part == in::image<float>(some.view().part(20, 10, 500, 15)));
 
+    // A temporary mask is kept; had it been freed, the zeros would be in its memory.
+    const auto copy_of_mask = [&] { return in::image<std::uint8_t>(mask); };
+    const auto kept = in::where(copy_of_mask(), in::speckle{.seed = 1});
+    const in::image<std::uint8_t> zeros(600, 30);
+    CHECK((source | kept) == some);
+    const auto chain = in::where(copy_of_mask(), in::speckle{.seed = 1} | in::equalize{});
+    const in::image<std::uint8_t> more_zeros = zeros;
+    CHECK((source | chain) == (source | in::where(mask, in::speckle{.seed = 1} | in::equalize{})));
+
     const in::image<std::uint8_t> none(600, 30);
     CHECK((source | in::where(none, match)) == source);
     CHECK((source | in::where(none, in::equalize{} | shifted{})) == source);

@@ -258,6 +258,41 @@ TEST_CASE("Parts that are left out have no effect, and own parts can be added") 
         REQUIRE(halved.image.pixels()[i] == 0.5f * full.image.pixels()[i]);
 }
 
+namespace {
+
+struct own_direction {
+    double factor;
+    double over_direction(double, double) const { return factor; }
+};
+struct own_range {
+    double factor;
+    double over_range(double) const { return factor; }
+};
+struct own_noise {
+    double intensity;
+    double noise() const { return intensity; }
+};
+struct own_pulse {
+    double length;
+    double range_length() const { return length; }
+};
+/// A gain whose second argument is the function object of the equation, by its own type.
+struct own_gain {
+    double factor;
+    double gain(const in::flat_echo& e, const auto& level_at) const {
+        return factor / level_at((std::min)(0.7, e.altitude / e.range));
+    }
+};
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("Parts of your own that return NaN or less than 0 are refused by the name of their function", "",
+                   own_direction, own_range, own_noise, own_pulse, own_gain) {
+    const auto use = [](double value) { (void)heard(level_bottom(), in::sonar_equation<TestType>{TestType{value}}); };
+    use(0.5);
+    for (const double wrong : {-1.0, std::nan("")}) CHECK_THROWS_AS(use(wrong), in::invalid_input);
+}
+
 TEST_CASE("Sediments differ in brightness as in the table") {
     const float rock = in::surface_of(in::seabed::sediment_of("rough rock")).reflectivity;
     const float sand = in::surface_of(in::sediment::fine_sand).reflectivity;

@@ -212,9 +212,13 @@ template <class P>
 concept noise_part = requires(const P& p) {
     { p.noise() } -> std::convertible_to<double>;
 };
+/// Stands for the function object that gains get, which is of another type in each equation.
+struct any_level {
+    double operator()(double sine) const;
+};
 template <class P>
-concept gain_part = requires(const P& p, const flat_echo& e, double (*level)(double)) {
-    { p.gain(e, level) } -> std::convertible_to<double>;
+concept gain_part = requires(const P& p, const flat_echo& e, const any_level& level_at) {
+    { p.gain(e, level_at) } -> std::convertible_to<double>;
 };
 }  // namespace detail::inline INSONIFY_FLAGS
 
@@ -225,9 +229,13 @@ concept equation_part = detail::direction_part<P> || detail::range_part<P> || de
 
 /// A list of parts, as in `sonar_equation{spreading_loss{}, absorption{}, time_varied_gain{}}`, in any order; at
 /// most one horizontal beam and one pulse. Gains multiply, and a level_gain takes no account of others: use one.
-template <equation_part... Parts>
+template <class... Parts>
 class sonar_equation {
   public:
+    static_assert((equation_part<Parts> && ...),
+                  "a part of the sonar equation has one of over_direction(across, down), over_range(metres), "
+                  "range_length(), noise() and gain(flat_echo, level_at), or footprint(range), reach(range) and "
+                  "pattern(along, range); they are const and return double");
     static constexpr bool has_ranges = (detail::range_part<Parts> || ...) || (detail::footprint_part<Parts> || ...);
     static constexpr bool has_noise = (detail::noise_part<Parts> || ...);
     static constexpr bool has_gain = (detail::gain_part<Parts> || ...);

@@ -117,7 +117,9 @@ class ping_tracer {
         for (std::size_t k = 0; k < fan_.size(); ++k) {
             const double across = fan_[k].sine * cosine_roll + fan_[k].cosine * sine_roll,
                          down = fan_[k].cosine * cosine_roll - fan_[k].sine * sine_roll;
-            ray_power_[k] = thickness * static_cast<float>(fan_[k].width * equation_.over_direction(across, down));
+            const double factor = equation_.over_direction(across, down);
+            insonify::detail::require(factor >= 0, "over_direction() of the sonar equation", factor, "0 or more");
+            ray_power_[k] = thickness * static_cast<float>(fan_[k].width * factor);
         }
     }
 
@@ -283,7 +285,7 @@ class ping_tracer {
     /// angle, times the law.
     float power_of(std::size_t k, double range, float grazing_sine) const {
         const float sine = (std::min)((std::max)(grazing_sine, min_grazing_sine), 1.0f);
-        return static_cast<float>(range) * ray_power_[k] * law_(sine) / sine;
+        return static_cast<float>(range) * ray_power_[k] * static_cast<float>(law_(sine)) / sine;
     }
 
     const scene& scene_;

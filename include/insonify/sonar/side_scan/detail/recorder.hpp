@@ -15,24 +15,29 @@ inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// The longer of a bin and the ping spacing; in coarse pictures a fiftieth of the altitude, so that relief and targets
-/// are not missed; at least 1/2048 of the range.
+/// are not missed, unless the nominal altitude is not above 0; at least 1/2048 of the range.
 inline double default_cell(const range_bins& window) {
-    const double picture = (std::max)(window.bin(), static_cast<double>(window.ping_spacing));
-    return (std::max)(static_cast<double>(window.range) / 2048,
-                      (std::min)(picture, static_cast<double>(window.altitude) / 50));
+    double cell = (std::max)(window.bin(), static_cast<double>(window.ping_spacing));
+    if (window.altitude > 0) cell = (std::min)(cell, static_cast<double>(window.altitude) / 50);
+    return (std::max)(static_cast<double>(window.range) / 2048, cell);
 }
 
 /// One factor for each bin, computed anew where a ping's altitude differs from that of the last.
 class bin_factors {
   public:
+    /// @param name    of the function of the sonar equation
     /// @param factor  factor(bin): at this altitude
+    /// @throws invalid_input for a factor that is negative or NaN
     template <class Factor>
-    std::span<const float> at(double altitude, int bins, const Factor& factor) {
+    std::span<const float> at(double altitude, int bins, std::string_view name, const Factor& factor) {
         if (values_.empty() || altitude != altitude_) {
             altitude_ = altitude;
             values_.clear();
-            for (std::size_t b = 0; b < static_cast<std::size_t>(bins); ++b)
-                values_.push_back(static_cast<float>((std::min)(factor(b), static_cast<double>(largest))));
+            for (std::size_t b = 0; b < static_cast<std::size_t>(bins); ++b) {
+                const double value = factor(b);
+                require(value >= 0, name, value, "0 or more");
+                values_.push_back(static_cast<float>((std::min)(value, static_cast<double>(largest))));
+            }
         }
         return values_;
     }
@@ -58,6 +63,8 @@ class recorder {
         for (std::size_t i = 0; i < track.size(); ++i) validate(track[i], element_name("track", i));
         // Either end is a rounded float, so that the difference may be less than the metres that were meant.
         const double recorded = static_cast<double>(window.range) - static_cast<double>(window.first_range);
+        require(equation_.pulse_length() >= 0, "pulse.length", equation_.pulse_length(), "0 metres or more");
+        require_not_negative("noise() of the sonar equation", equation_.noise());
         require(equation_.pulse_length() <= recorded + 0x1p-23 * static_cast<double>(window.range), "pulse.length",
                 equation_.pulse_length(), "at most the metres of range that are recorded");
         out_.rows.side = window.facing;
@@ -137,7 +144,7 @@ class recorder {
     std::span<const float> losses_at(const ping& p, bin_factors& losses) const {
         if (!equation_.has_ranges()) return {};
         const double altitude = window_.counts_time ? 0 : p.position.z;
-        return losses.at(altitude, window_.bins,
+        return losses.at(altitude, window_.bins, "over_range() of the sonar equation",
                          [&](std::size_t b) { return equation_.over_range(slant_of(b, altitude), spacing()); });
     }
 
@@ -217,7 +224,7 @@ class recorder {
             bin_factors gains;
             for (std::size_t i = from; i < to; ++i) {
                 const double altitude = track_[i].position.z;
-                const auto gain = gains.at(altitude, window_.bins, [&](std::size_t b) {
+                const auto gain = gains.at(altitude, window_.bins, "gain() of the sonar equation", [&](std::size_t b) {
                     return equation_.gain(
                         {slant_of(b, altitude), altitude, window_.bin(), spacing(), window_.counts_time});
                 });
