@@ -28,6 +28,8 @@ class Browser:
             [program, "--headless=new", "--no-sandbox", "--disable-gpu", f"--user-data-dir={folder}",
              "--remote-debugging-pipe", "about:blank"],
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=connect, pass_fds=(3, 4))
+        os.close(to_child)
+        os.close(from_child)  # so that reading ends when Chromium does
         self.buffer, self.count, self.events = b"", 0, []
 
     def receive(self):

@@ -18,6 +18,7 @@ import argparse
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -60,7 +61,7 @@ class Guide:
         for name, program in self.stand_ins.items():
             if name in code and not program:
                 return None
-            code = code.replace(name, str(program))
+            code = code.replace(name, shlex.quote(str(program)))
         code = re.sub(r"^g\+\+ ", f"{os.environ['CXX']} ", code, flags=re.M)
         done = subprocess.run(["bash", "-euo", "pipefail", "-c", code], cwd=self.folder, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=1200)

@@ -6,6 +6,7 @@ The options are those of the sources, and those that --help of a tool lists.
 
 import pathlib
 import re
+import shlex
 import subprocess
 import sys
 
@@ -15,7 +16,7 @@ script = project / "tools/completion.bash"
 
 def completed(*words, program="generate_dataset", function="_insonify_generate"):
     """The words that bash offers after these."""
-    ask = (f"source {script}; COMP_WORDS=({program} {' '.join(map(repr, words))}); COMP_CWORD={len(words)}; "
+    ask = (f"source {shlex.quote(str(script))}; COMP_WORDS=({program} {' '.join(map(repr, words))}); COMP_CWORD={len(words)}; "
            f"{function}; printf '%s\\n' \"${{COMPREPLY[@]}}\"")
     return subprocess.run(["bash", "-c", ask], check=True, capture_output=True, text=True).stdout.split()
 

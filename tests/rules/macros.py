@@ -23,7 +23,7 @@ def compiled(command, text, *options):
 
 
 def includes(headers):
-    """Include lines, each guarded, since headers that are themselves optional are among them."""
+    """Include lines, each guarded, since headers that are optional are among them."""
     return "".join(f"#if __has_include(<{h}>)\n#include <{h}>\n#endif\n" for h in headers)
 
 
@@ -34,7 +34,7 @@ def macros(command, text):
 def main():
     root, command = pathlib.Path(sys.argv[1]), sys.argv[2:]
     texts = {path.relative_to(root).as_posix(): path.read_text() for path in sorted(root.rglob("*.hpp"))}
-    ours = includes(texts)
+    ours = "".join(f"#include <{h}>\n" for h in texts)
     named = {name for text in texts.values() for name in re.findall(r"^\s*#\s*include <(.+)>", text, flags=re.M)}
     others = includes(sorted(named - texts.keys()))
 
