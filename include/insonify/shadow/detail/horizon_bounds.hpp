@@ -2,10 +2,10 @@
 // cell.
 //
 // A point is in shadow if the surface nearer to the light, in the vertical plane of its ray, has a larger u
-// (lit_grid.hpp) somewhere. Strips one row wide run along the light, so that no ray leaves its strip. Along each strip the kernel carries two bounds of the
-// largest u on its rays: a lower one, the running maximum over columns of the smallest u around the strip, and an upper
-// one, the running maximum of the largest. Points below the lower bound are dark, points above the upper bound lit; the
-// few in between are left to an exact test.
+// (lit_grid.hpp) somewhere. Strips one row wide run along the light, so that no ray leaves its strip. Along each strip
+// the kernel carries two bounds of the largest u on its rays: a lower one, the running maximum over columns of the
+// smallest u around the strip, and an upper one, the running maximum of the largest. Points below the lower bound are
+// dark, points above the upper bound lit; the few in between are left to an exact test.
 //
 // Where all triangles around a strip face the light, u increases along each ray, so that they cannot shade a later
 // point of the same slope. Such columns are left out of the upper bound, or points on lit slopes would be undecided.
