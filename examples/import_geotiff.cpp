@@ -12,6 +12,7 @@
 #include <insonify/sonar/speckle.hpp>
 
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string_view>
@@ -38,8 +39,9 @@ sb::heightfield read_raster(const char* path, float scale) {
         throw in::io_error(std::string(path) + ": is not north up with square pixels");
     if (const OGRSpatialReference* const reference = file->GetSpatialRef()) {
         if (reference->IsGeographic())
-            throw in::io_error(std::string(path) +
-                               ": is in degrees; project it to metres first, as by gdalwarp -t_srs EPSG:32632");
+            throw in::io_error(
+                std::string(path) +
+                ": is in degrees; project it to metres first, as to UTM zone 32N by gdalwarp -t_srs EPSG:32632");
         for (double& p : place) p *= reference->GetLinearUnits();
     }
     GDALRasterBand& band = *file->GetRasterBand(1);
@@ -79,7 +81,7 @@ int main(int argc, char** argv) try {
     }
     sb::heightfield survey = sb::fill_gaps(read_raster(argv[1], scale), 10);
 
-    // From the western edge, 15 m above the bottom there, which is moved to z = 0: default gains take it to lie there.
+    // From the western edge, 15 m above the bottom there, which is moved to z = 0, where default gains take it to lie.
     const glm::dvec2 start = survey.origin;
     const double length = survey.spacing * (survey.heights.height() - 1);
     const double edge = static_cast<double>(survey.height_at(start.x, start.y + length / 2));

@@ -34,7 +34,7 @@ int main() {
         in::record_into(rows.part(0, first, 600, 8), scene, pings, sonar, options);
     }
     const double loudest = static_cast<double>(*std::max_element(buffer.begin(), buffer.end()));
-    const long untouched = std::count(buffer.begin(), buffer.end(), -1.0f);
-    std::printf("loudest echo %.2f; %ld of the caller's 4800 values are untouched\n", loudest, untouched);
+    const auto untouched = std::count(buffer.begin(), buffer.end(), -1.0f);
+    std::printf("loudest echo %.2f; %td of the caller's 4800 values are untouched\n", loudest, untouched);
     return loudest > 0 && untouched == 4800 ? 0 : 1;
 }

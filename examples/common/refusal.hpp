@@ -31,7 +31,7 @@ inline std::size_t edits_between(const std::string& from, const std::string& to)
 /// The option whose name is closest to a word, empty if none is within two edits. Ties go to the longer common prefix.
 inline std::string similar_option(const CLI::App& app, const std::string& word) {
     std::string best;
-    std::pair least{std::size_t{3}, std::ptrdiff_t{0}};  // edits, and minus the characters in common
+    std::pair least{std::size_t{2}, std::ptrdiff_t{1}};  // edits, and minus the characters in common
     for (const CLI::Option* const option : app.get_options())
         for (const std::string& name : option->get_lnames()) {
             const std::string candidate = "--" + name;

@@ -34,7 +34,7 @@ options parse(int argc, char** argv) {
     app.add_option("--test", o.test, "The simulator's test set: images/<class>/*.png")->required();
     app.add_option("--own", o.own, "Another set of the simulator, which trains the upper bound `ceiling`");
     app.add_option("--references", o.references,
-                   "A third set of the simulator, whose histograms recipe overhead matches; it needs them");
+                   "A third set of the simulator, whose histograms recipe overhead matches; required by it");
     app.add_option("--recipes", o.recipes, "Of overhead, ground_range, slant_range; none beside --try (all)")
         ->delimiter(',')
         ->check(CLI::IsMember({"none", "overhead", "ground_range", "slant_range"}));
@@ -68,6 +68,14 @@ class_counts counts_of(std::size_t images) {
     return c;
 }
 
+/// The most of each class that sets of these sizes have.
+class_counts counts_of_all(const std::vector<std::size_t>& sizes) {
+    class_counts most{};
+    for (const std::size_t images : sizes)
+        for (std::size_t k = 0; k < 3; ++k) most[k] = (std::max)(most[k], counts_of(images)[k]);
+    return most;
+}
+
 /// A given number of rows of each class, beginning at `from`, cyclically.
 features some_of(const features& f, const class_counts& counts, const class_counts& from = {}) {
     std::array<std::vector<std::size_t>, 3> of_class;
@@ -91,16 +99,15 @@ class experiment {
     explicit experiment(const options& o)
         : options_(o),
           pool_(o.threads),
-          max_size_(*std::max_element(o.sizes.begin(), o.sizes.end())),
+          needed_(counts_of_all(o.sizes)),
           test_(features_of(read_set(o.test))),
           simulators_(o.own.empty() ? features{} : features_of(read_set(o.own))) {
         if (o.own.empty()) return;
-        const class_counts there = counted(simulators_), needed = counts_of(max_size_);
+        const class_counts there = counted(simulators_);
         for (std::size_t k = 0; k < 3; ++k)
-            if (needed[k] > there[k])
-                throw in::invalid_input("--sizes " + std::to_string(max_size_) + ": --own has " +
-                                        std::to_string(there[k]) + " of class " + classes[k] + ", " +
-                                        std::to_string(needed[k]) + " are needed");
+            if (needed_[k] > there[k])
+                throw in::invalid_input("--sizes: --own has " + std::to_string(there[k]) + " of class " + classes[k] +
+                                        ", " + std::to_string(needed_[k]) + " are needed");
     }
 
     /// Trains on a recipe's pictures. A set of another seed tests it on pictures of the same recipe.
@@ -111,7 +118,7 @@ class experiment {
         const features own = features_of(renderer.draw_set(tested, options_.seeds + 1));
         std::vector<features> sets;
         for (std::size_t seed = 1; seed <= options_.seeds; ++seed)
-            sets.push_back(features_of(renderer.draw_set(counts_of(max_size_), seed)));
+            sets.push_back(features_of(renderer.draw_set(needed_, seed)));
         learn(
             r.name, r.description,
             [&](std::size_t seed, std::size_t images) { return some_of(sets[seed], counts_of(images)); }, &own);
@@ -152,7 +159,7 @@ class experiment {
 
     options options_;
     in::thread_pool pool_;
-    std::size_t max_size_;
+    class_counts needed_;  ///< for the training set of any of the sizes
     features test_, simulators_;
     std::vector<outcome> outcomes_;
 };
@@ -179,7 +186,7 @@ int main(int argc, char** argv) try {
         if (r.needs_references && o.references.empty())
             throw in::invalid_input("--recipes " + r.name + ": needs --references, whose histograms it matches");
     for (const auto& [name, folder] : {std::pair{"--own", o.own}, {"--references", o.references}})
-        if (!folder.empty() && std::filesystem::equivalent(o.test, folder))
+        if (std::error_code missing; !folder.empty() && std::filesystem::equivalent(o.test, folder, missing))
             throw in::invalid_input(std::string(name) + " '" + folder + "' is the test set");
     std::filesystem::create_directories(o.out);
     for (const recipe& r : recipes)

@@ -27,7 +27,9 @@ struct trial_result {
     std::vector<double> three[2];  ///< balanced accuracy of plane, ship or bottom
     recognition::confusion<3> confusion[2]{};
 
-    std::string name() const { return std::to_string(real) + " real" + (generated ? " and generated" : ""); }
+    std::string name() const {
+        return real == 0 ? "generated alone" : std::to_string(real) + " real" + (generated ? " and generated" : "");
+    }
     /// Index of the classifier with the larger mean area.
     std::size_t better() const { return spread(area[0]).mean >= spread(area[1]).mean ? 0 : 1; }
 };

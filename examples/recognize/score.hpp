@@ -37,8 +37,8 @@ struct confusion {
     double accuracy() const {
         return sum([&](std::size_t k) { return counts[k][k]; }) / sum([&](std::size_t k) { return actual(k); });
     }
-    /// The mean recall of the classes that were tested: of all classes, 1 / Classes for guessing and for one constant
-    /// answer.
+    /// The mean recall of the classes that have test chips. Where all have some, guessing and one constant answer give
+    /// 1 / Classes.
     double balanced_accuracy() const {
         return sum([&](std::size_t k) { return recall(k); }) / sum([&](std::size_t k) { return actual(k) > 0; });
     }

@@ -53,7 +53,7 @@ class Recognition(unittest.TestCase):
         self.assertIn("holds no PNG", run(RECOGNIZE, "--out", self.folder / "c", "--test", self.folder,
                                            "--recipes", "slant_range", expect=1))
         for reason, *options in (
-            ("--sizes 300: --own has 7 of class cylinder, 79 are needed", "--own", self.folder / "own", "--recipes", "none",
+            ("--sizes: --own has 7 of class cylinder, 79 are needed", "--own", self.folder / "own", "--recipes", "none",
              "--sizes", 300),
             ("is the test set", "--own", self.folder / "test"),
             ("needs --references", "--recipes", "overhead"),

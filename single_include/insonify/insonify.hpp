@@ -315,7 +315,7 @@ class block_pool {
         kept_ += size;
     }
 
-    /// Frees the kept blocks, and forgets the peak in use: blocks are kept again as if the first use began now.
+    /// Frees the kept blocks and resets the peak, so that blocks in use are freed, not kept.
     INSONIFY_TAGGED void release() noexcept {
         const guard lock(busy_);
         while (count_ > 0) free_oldest();
@@ -942,7 +942,8 @@ class image_view {
         detail::require(y >= 0 && y <= height_, "y", y, "0 to the height of the view");
         detail::require(width >= 0 && width <= width_ - x, "width", width, "0 to the view's width less x");
         detail::require(height >= 0 && height <= height_ - y, "height", height, "0 to the view's height less y");
-        const bool is_empty = width == 0 || height == 0;  // it may begin where no pixel is
+        const bool is_empty =
+            width == 0 || height == 0;  // its corner may lie past the last pixel, where no pointer may be formed
         return {is_empty ? data_ : data_ + y * stride_ + x, width, height, stride_};
     }
 
@@ -3905,7 +3906,9 @@ class echo_law {
     /// Prepares fields under which the correlation of the intensities has the given length.
     void correlate(const correlation_length& length) {
         const parameter &looks = statistics_.looks, &shape = statistics_.shape, &steady = statistics_.steady;
-        const float whole = looks.is_constant() ? looks.value() : 0;
+        if (!looks.is_constant())
+            refuse_text("looks of correlated speckle", "a map", "one whole number for all pixels, 1 to 64");
+        const float whole = looks.value();
         require(whole >= 1 && whole <= 64 && whole == static_cast<float>(static_cast<int>(whole)),
                 "number of looks of correlated speckle", whole, "a whole number, 1 to 64, for all pixels");
         if (shape.is_constant() && shape.value() > 0) texture_.emplace(static_cast<double>(shape.value()));
@@ -5104,11 +5107,11 @@ void run_pass(image_view<const From> from, image_view<To> to, const Pass& pass, 
     constexpr int farthest = 1 << 30;
     require_range("origin.x", origin.x, -farthest, farthest, "within 2^30");
     require_range("origin.y", origin.y, -farthest, farthest, "within 2^30");
-    // Correlated noise also draws the pixels around the image.
-    constexpr std::int64_t most = (std::int64_t{1} << 31) - 1024;
-    require(std::int64_t{origin.x} + from.width() <= most, "origin.x", origin.x, "at most 2^31 - 1024 less the width");
-    require(std::int64_t{origin.y} + from.height() <= most, "origin.y", origin.y,
-            "at most 2^31 - 1024 less the height");
+    // Correlated noise evaluates up to 1024 pixels beyond the image; their coordinates must fit an int.
+    constexpr std::int64_t upper_bound = (std::int64_t{1} << 31) - 1024;
+    require(std::int64_t{origin.x} + from.width() <= upper_bound, "origin.x", origin.x, "at most 2^31 - 1024 - width");
+    require(std::int64_t{origin.y} + from.height() <= upper_bound, "origin.y", origin.y,
+            "at most 2^31 - 1024 - height");
     Pass prepared = pass;
     prepare_pass(prepared, {origin.x, origin.y, from.width(), from.height()});
     // A pass that computes rows above has long bands, and keeps those rows for one column of runs at a time.
@@ -5580,41 +5583,48 @@ struct where_filter {
     }
 };
 
-/// Applies a filter where `mask` is not 0; the other pixels are unchanged. Measured filters measure the masked pixels
-/// alone, so their masks don't nest: pass one mask that combines them. A mask of zeros leaves the image unchanged.
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
+
+using kept_mask = std::shared_ptr<const image<std::uint8_t>>;
+
+template <class F>
+where_filter<F> masked(image_view<const std::uint8_t> mask, const kept_mask& kept, F filter) {
+    return {mask, std::move(filter), kept};
+}
+/// Each stage of a chain.
+template <class... Stages>
+filter_chain<where_filter<Stages>...> masked(image_view<const std::uint8_t> mask, const kept_mask& kept,
+                                             const filter_chain<Stages...>& chain) {
+    return std::apply(
+        [&](const Stages&... stages) {
+            return filter_chain<where_filter<Stages>...>{{{mask, stages, kept}...}};
+        },
+        chain.stages);
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
+
+/// Applies a filter, or each stage of a chain, where `mask` is not 0; the other pixels are unchanged. Measured filters
+/// measure the masked pixels alone, so their masks don't nest: pass one mask that combines them. A mask of zeros leaves
+/// the image unchanged.
 ///
 ///     image | where(is_seabed, match_histogram(pixels_where(reference_mask, reference)))
 ///
-/// @param mask    of the image's size; its pixels must exist until the filter has run. A temporary image is kept
+/// @param mask    of the image's size; its pixels must exist until the filter has run
 /// @param filter  of pixels or measured, not of images, with results of the same pixel type
-template <class F>
-    requires(!detail::is_chain<std::decay_t<F>>)
-where_filter<std::decay_t<F>> where(image_view<const std::uint8_t> mask, F&& filter) {
-    return {mask, std::forward<F>(filter)};
+template <class Filter>
+auto where(image_view<const std::uint8_t> mask, const Filter& filter) {
+    return detail::masked(mask, nullptr, filter);
 }
-template <class F>
-    requires(!detail::is_chain<std::decay_t<F>>)
-where_filter<std::decay_t<F>> where(image<std::uint8_t>&& mask, F&& filter) {
+/// The same with a mask that is a temporary, which the filter keeps.
+template <class Filter>
+auto where(image<std::uint8_t>&& mask, const Filter& filter) {
     const auto kept = std::make_shared<const image<std::uint8_t>>(std::move(mask));
-    return {kept->view(), std::forward<F>(filter), kept};
-}
-/// The same for each stage of a chain.
-template <class... Stages>
-filter_chain<where_filter<Stages>...> where(image_view<const std::uint8_t> mask, const filter_chain<Stages...>& chain) {
-    return std::apply(
-        [&](const Stages&... stages) {
-            return filter_chain<where_filter<Stages>...>{{{mask, stages}...}};
-        },
-        chain.stages);
-}
-template <class... Stages>
-filter_chain<where_filter<Stages>...> where(image<std::uint8_t>&& mask, const filter_chain<Stages...>& chain) {
-    const auto kept = std::make_shared<const image<std::uint8_t>>(std::move(mask));
-    return std::apply(
-        [&](const Stages&... stages) {
-            return filter_chain<where_filter<Stages>...>{{{kept->view(), stages, kept}...}};
-        },
-        chain.stages);
+    return detail::masked(kept->view(), kept, filter);
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -19193,8 +19203,8 @@ struct mask_difference {
         return joined == 0 ? 1.0 : static_cast<double>(common) / static_cast<double>(joined);
     }
     /// Mean displacement of the boundary along its length, pixels: wrong pixels over boundary pixels. Infinite if there
-    /// are wrong pixels but no boundary. A feature that is missing counts with its area over its boundary, at most half
-    /// its width.
+    /// are wrong pixels but no boundary. A missing feature contributes its area over the length of its boundary, at
+    /// most half its width, however far it is from any other.
     INSONIFY_TAGGED double mean_boundary_displacement() const {
         if (wrong_pixels() == 0) return 0;
         if (boundary_pixels == 0) return std::numeric_limits<double>::infinity();
@@ -19362,7 +19372,7 @@ class seabed_probe {
             const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
             chip.position +=
                 glm::dvec2(in_picture.x * cosine - in_picture.y * sine, in_picture.x * sine + in_picture.y * cosine);
-            if (view.has_near_light()) {  // it stays where it is
+            if (view.has_near_light()) {  // the light keeps its position in the world
                 const glm::dvec3 light = view.light_position() - glm::dvec3(in_picture, 0);
                 const double level = numeric::square_root(light.x * light.x + light.y * light.y);
                 chip.light_distance = static_cast<float>(numeric::square_root(level * level + light.z * light.z));
@@ -19637,7 +19647,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     };
     using truth = std::conditional_t<has_map, insonify::shadow::exact, Shadow>;
     const detail::seabed_probe probed(bottom, rig, how, truth{}, ex);
-    std::optional<detail::seabed_probe> finer;  // made when a grid is tried that is nearly as fine as the truth
+    std::optional<detail::seabed_probe> finer;  // truth for grids above half of `finest`, drawn on first use
     const double pixel = view.ground_sampling();
     const int longer = (std::max)(rig.size.x, rig.size.y);
     const double lowest_light = detail::largest_cot_elevation(view);
@@ -19648,6 +19658,8 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         if (is_fine && !finer) {
             probe twice = how;
             twice.finest *= 2;
+            // A picture has at most 32768 cells a side, and 2^28 altogether.
+            twice.pixels = (std::min)(twice.pixels, static_cast<int>(12000 / twice.finest));
             finer.emplace(bottom, rig, twice, truth{}, ex);
         }
         errors all = (is_fine ? *finer : probed).errors_of(cells_per_pixel, policy, ex);
@@ -24912,7 +24924,7 @@ template <class P>
 concept noise_part = requires(const P& p) {
     { p.noise() } -> std::convertible_to<double>;
 };
-/// Stands for the function object that gains get, which is of another type in each equation.
+/// Placeholder for the `level_at` argument of gain(), whose type depends on the equation.
 struct any_level {
     double operator()(double sine) const;
 };
@@ -25139,7 +25151,7 @@ inline int beam_reach(const equation_interface& equation, const range_bins& wind
     const double range = static_cast<double>(window.range), altitude = static_cast<double>(window.altitude);
     const double slant = window.counts_time ? range : numeric::square_root(range * range + altitude * altitude);
     const double pings = equation.beam_reach(slant) / static_cast<double>(window.ping_spacing);
-    require(pings < 4096, "pings in the horizontal beam", pings, "below 4096");
+    require(pings >= 0 && pings < 4096, "pings in the horizontal beam", pings, "0 or more, below 4096");
     return static_cast<int>(pings);
 }
 
@@ -25834,8 +25846,8 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/sonar/side_scan/detail/ping_fan.hpp ----------------------------------------------
 // The rays of a ping, in the plane across the track, from nadir outwards.
 //
-// Rays that meet level ground within the range have equal steps there. Flatter ones, up to the zenith, meet objects
-// above it and have equal angles: neighbours are at most a bin apart on a vertical wall at the largest range.
+// Rays that meet level ground within the range are equally spaced on it. Those farther out, up to the zenith, meet
+// objects above it and are equally spaced in angle: at most a bin apart on a vertical wall at the largest range.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -25875,8 +25887,8 @@ class ping_fan {
 
     ping_fan() = default;
 
-    /// @param step         metres between rays on level ground, and between neighbours on a wall at the largest range
-    /// @param first_range, range  metres; nearer and farther surfaces need no rays
+    /// @param step                metres between adjacent rays: on level ground, and on a wall at the largest range
+    /// @param first_range, range  slant ranges, metres; nearer and farther surfaces need no rays
     ping_fan(const fan_shape& shape, double step, double first_range, double range) : shape_(shape) {
         const double low = shape.above_lowest;
         if (!(low > 0)) return;
@@ -25885,14 +25897,15 @@ class ping_fan {
             return r > height ? numeric::square_root(r * r - height * height) / height : 0;
         };
         const double spacing = step / low;
-        // Ground higher than the lowest is met up to the largest range by flatter rays. They end with those for ground
-        // at a sixteenth of the lowest one's depth.
+        // Ground above the lowest needs rays farther out to be met up to the largest range. They end at those that meet
+        // ground a sixteenth as deep as the lowest.
         const double flattest = (std::max)(1.0, 16 * range / low);
         const double end =
             shape.above_highest > 0 ? (std::min)(tangent_at(range, shape.above_highest), flattest) : flattest;
         const std::int64_t first = numeric::floor_to_int(tangent_at(first_range, low) / spacing);
         const std::int64_t last = numeric::floor_to_int(end / spacing) + 1;
-        require(last - first < (1 << 25), "rays of a ping", last - first, "below 2^25: take wider bins");
+        require(last - first < (1 << 25), "rays of a ping", last - first,
+                "below 2^25: take wider bins or larger cells");
         rays_.reserve(static_cast<std::size_t>(last - first));
         for (std::int64_t i = first; i < last; ++i) {
             const double tangent = (static_cast<double>(i) + 0.5) * spacing;
@@ -25904,6 +25917,8 @@ class ping_fan {
         const double up_to = shape.above_all > 0 ? numeric::atan2(range, shape.above_all) : numeric::pi;
         const double angle = step / range;
         wall_from_ = from, wall_angle_ = angle;
+        require((up_to - from) / angle < 0x1p25, "rays of a ping above the ground", (up_to - from) / angle,
+                "below 2^25: take wider bins or larger cells");
         for (std::int64_t i = 0; from + angle * static_cast<double>(i) < up_to; ++i) {
             const auto [sine, cosine] = numeric::sin_cos(from + angle * (static_cast<double>(i) + 0.5));
             rays_.push_back({sine, cosine, angle});
@@ -26226,7 +26241,8 @@ inline dynamic_array<sliced_target> sliced_targets(const scene& s) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/detail/target_hits.hpp -------------------------------------------
-// First hits of a ping's rays with the targets, with exact fractional coverage of each ray's width.
+// First hits of a ping's rays with the targets, and the fraction of each ray's width that they cover: exact for up to
+// max_parts segments per ray, sampled for more.
 //
 // The cross-section of the targets with a ping's plane is a set of line segments. Their ends divide each ray's width
 // into parts; in each part the nearest segment is hit, weighted by the part's fraction of the width. A bar
@@ -26471,10 +26487,10 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/sonar/side_scan/detail/ping_echo.hpp ---------------------------------------------
 // The echo of one ping, bin by bin.
 //
-// Source and receiver coincide, so the first surface along a ray is both insonified and received. A ray's power is
-// distributed evenly over the bins between the ranges at which its edges meet the surface, so that level ground has no
-// gaps and no beats between rays and bins. Seabed that no ray meets is in shadow; its caster is the surface that the
-// rays met in front of it.
+// The sonar is monostatic, so the first surface along a ray is both insonified and received. A ray's power is
+// distributed evenly over the bins between the ranges at which its edges meet the surface; level ground then shows
+// neither gaps nor moire between rays and bins. Seabed that no ray meets is in shadow; its caster is the surface that
+// the rays met in front of it.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -26577,7 +26593,7 @@ class ping_tracer {
             const double across = fan_[k].sine * cosine_roll + fan_[k].cosine * sine_roll,
                          down = fan_[k].cosine * cosine_roll - fan_[k].sine * sine_roll;
             const double factor = equation_.over_direction(across, down);
-            insonify::detail::require(factor >= 0, "over_direction() of the sonar equation", factor, "0 or more");
+            insonify::detail::require_not_negative("over_direction() of the sonar equation", factor);
             ray_power_[k] = thickness * static_cast<float>(fan_[k].width * factor);
         }
     }
@@ -26610,7 +26626,8 @@ class ping_tracer {
         glm::dvec2 at(double f) const { return {x + f * dx, p.down + f * ddown}; }
     };
 
-    /// Goes outwards along the profile, which rays meet in order. Bottom below the last ray that met it is in shadow.
+    /// Walks the profile outwards; rays meet it in order. Bottom below the line of sight over the outermost lit vertex
+    /// (the horizon) is in shadow.
     void trace_bottom(const ping_frame& ping) {
         double horizon_x = 0, horizon_down = 1;
         // Rays that meet the bottom in front of the profile go no further.
@@ -26627,9 +26644,10 @@ class ping_tracer {
             const bottom_point &p = profile_[i], &q = profile_[i + 1];
             const facet part{p, q, px, qx - px, q.down - p.down, next_begin, position(i + 1)};
             next_begin = part.end;
+            const bool is_gap = part.ddown != part.ddown;  // rays pass through, and nothing is labelled
             const double above = qx * horizon_down - q.down * horizon_x;
             if (!(above > 0)) {
-                if (Labelled && part.ddown == part.ddown) label(part, 0, 1, caster_below_horizon({qx, q.down}));
+                if (Labelled && !is_gap) label(part, 0, 1, caster_below_horizon({qx, q.down}));
                 continue;
             }
             // The part above the horizon. Labels divide it halfway between rays, as the rays' power does.
@@ -26644,7 +26662,7 @@ class ping_tracer {
                 const double f = before / (before - ping_fan::beyond(ray, qx, q.down));
                 const glm::dvec2 met = part.at(f);
                 const double range = met.x * ray.sine + met.y * ray.cosine;
-                if (Labelled && has_targets_ && k > first) {
+                if (Labelled && has_targets_ && !is_gap && k > first) {
                     const double between = 0.5 * (last_met + f);
                     label(part, from, between, occluder(k - 1, part.at(last_met)));
                     from = between;
@@ -26652,7 +26670,7 @@ class ping_tracer {
                 last_met = f;
                 if (range <= farthest_ + axis_.bin) add_bottom_echo(ping, k, range, part, static_cast<float>(f));
             }
-            if constexpr (Labelled)
+            if (Labelled && !is_gap)
                 label(part, from, 1,
                       has_targets_ ? occluder(k > first ? k - 1 : k, part.at(last_met)) : labels::is_lit);
             horizon_x = qx, horizon_down = q.down;
@@ -26784,8 +26802,8 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The longer of a bin and the ping spacing; in coarse pictures a fiftieth of the altitude, so that relief and targets
-/// are not missed, unless the nominal altitude is not above 0; at least 1/2048 of the range.
+/// The default cell: the longer of a bin and the ping spacing; at most a fiftieth of the altitude, if that is above 0,
+/// so that coarse pictures do not miss relief and targets; at least 1/2048 of the range.
 inline double default_cell(const range_bins& window) {
     double cell = (std::max)(window.bin(), static_cast<double>(window.ping_spacing));
     if (window.altitude > 0) cell = (std::min)(cell, static_cast<double>(window.altitude) / 50);
@@ -26831,12 +26849,12 @@ class recorder {
         : scene_(s), track_(track), window_(window), options_(options), equation_(options.equation) {
         materials_ = checked_materials(s, options);
         for (std::size_t i = 0; i < track.size(); ++i) validate(track[i], element_name("track", i));
-        // Either end is a rounded float, so that the difference may be less than the metres that were meant.
+        // Both ends are rounded floats, so their difference may fall short of the intended length.
         const double recorded = static_cast<double>(window.range) - static_cast<double>(window.first_range);
-        require(equation_.pulse_length() >= 0, "pulse.length", equation_.pulse_length(), "0 metres or more");
+        require_not_negative("range_length() of the sonar equation", equation_.pulse_length());
         require_not_negative("noise() of the sonar equation", equation_.noise());
         require(equation_.pulse_length() <= recorded + 0x1p-23 * static_cast<double>(window.range), "pulse.length",
-                equation_.pulse_length(), "at most the metres of range that are recorded");
+                equation_.pulse_length(), "at most range - first_range, in metres");
         out_.rows.side = window.facing;
         require(options.cell == 0 || options.cell >= 0x1p-20 * static_cast<double>(window.range), "cell", options.cell,
                 "0, or at least 2^-20 of the range");
@@ -26914,7 +26932,7 @@ class recorder {
     std::span<const float> losses_at(const ping& p, bin_factors& losses) const {
         if (!equation_.has_ranges()) return {};
         const double altitude = window_.counts_time ? 0 : p.position.z;
-        return losses.at(altitude, window_.bins, "over_range() of the sonar equation",
+        return losses.at(altitude, window_.bins, "over_range() and footprint() of the sonar equation",
                          [&](std::size_t b) { return equation_.over_range(slant_of(b, altitude), spacing()); });
     }
 
@@ -26967,8 +26985,10 @@ class recorder {
             const double slant = slant_of(static_cast<std::size_t>(b), static_cast<double>(window_.altitude));
             double sum = 0;
             const auto weight = [&](int j) {
-                return j * spacing() <= equation_.beam_reach(slant) ? equation_.beam_pattern(j * spacing(), slant)
-                                                                    : 0.0;
+                if (j * spacing() > equation_.beam_reach(slant)) return 0.0;
+                const double factor = equation_.beam_pattern(j * spacing(), slant);
+                require_not_negative("pattern() of the sonar equation", factor);
+                return factor;
             };
             for (int j = -reach; j <= reach; ++j) sum += weight(numeric::abs(j));
             for (int j = 0; j <= reach; ++j) weights(b, j) = static_cast<float>(weight(j) / sum);
@@ -27853,7 +27873,7 @@ class scene_occlusion {
         detail::require(!within.box.empty() && numeric::is_finite(size.x + size.y + size.z),
                         "occlusion_bounds.box.size()", size.x + size.y + size.z, "that of a box around the points");
         seabed::detail::require_metres("occlusion_bounds.cell", within.cell);
-        detail::require_range("occlusion_bounds.reach", within.reach, 0, 1e6, "0 to 10^6");
+        detail::require_range("occlusion_bounds.reach", within.reach, 0, 1e6, "0 to 10^6 longer sides");
         seabed::detail::require_position("occlusion_bounds.box.lower", glm::dvec2(within.box.lower));
         seabed::detail::require_position("occlusion_bounds.box.upper", glm::dvec2(within.box.upper));
     }

@@ -1,5 +1,5 @@
-// Times of the parts of a frame: frame [threads] [cells] [pixels] prints the median of nine, in milliseconds, part by
-// part.
+// Times of a frame and of steps like its own: frame [threads] [cells] [pixels] prints the median of nine of each, in
+// milliseconds; among them a shadow map, which the default picture does without.
 //
 // A scene like the reference workload's, with the library's own ripples and the light along x: a seabed of cells x
 // cells and a cylinder, seen from 10 m by a camera of 120 degrees, lit at 6 degrees. Everything but memory is

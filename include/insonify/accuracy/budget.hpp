@@ -184,7 +184,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     };
     using truth = std::conditional_t<has_map, insonify::shadow::exact, Shadow>;
     const detail::seabed_probe probed(bottom, rig, how, truth{}, ex);
-    std::optional<detail::seabed_probe> finer;  // made when a grid is tried that is nearly as fine as the truth
+    std::optional<detail::seabed_probe> finer;  // truth for grids above half of `finest`, drawn on first use
     const double pixel = view.ground_sampling();
     const int longer = (std::max)(rig.size.x, rig.size.y);
     const double lowest_light = detail::largest_cot_elevation(view);
@@ -195,6 +195,8 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         if (is_fine && !finer) {
             probe twice = how;
             twice.finest *= 2;
+            // A picture has at most 32768 cells a side, and 2^28 altogether.
+            twice.pixels = (std::min)(twice.pixels, static_cast<int>(12000 / twice.finest));
             finer.emplace(bottom, rig, twice, truth{}, ex);
         }
         errors all = (is_fine ? *finer : probed).errors_of(cells_per_pixel, policy, ex);

@@ -41,8 +41,8 @@ struct mask_difference {
         return joined == 0 ? 1.0 : static_cast<double>(common) / static_cast<double>(joined);
     }
     /// Mean displacement of the boundary along its length, pixels: wrong pixels over boundary pixels. Infinite if there
-    /// are wrong pixels but no boundary. A feature that is missing counts with its area over its boundary, at most half
-    /// its width.
+    /// are wrong pixels but no boundary. A missing feature contributes its area over the length of its boundary, at
+    /// most half its width, however far it is from any other.
     INSONIFY_TAGGED double mean_boundary_displacement() const {
         if (wrong_pixels() == 0) return 0;
         if (boundary_pixels == 0) return std::numeric_limits<double>::infinity();

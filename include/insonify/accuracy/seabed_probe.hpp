@@ -66,7 +66,7 @@ class seabed_probe {
             const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
             chip.position +=
                 glm::dvec2(in_picture.x * cosine - in_picture.y * sine, in_picture.x * sine + in_picture.y * cosine);
-            if (view.has_near_light()) {  // it stays where it is
+            if (view.has_near_light()) {  // the light keeps its position in the world
                 const glm::dvec3 light = view.light_position() - glm::dvec3(in_picture, 0);
                 const double level = numeric::square_root(light.x * light.x + light.y * light.y);
                 chip.light_distance = static_cast<float>(numeric::square_root(level * level + light.z * light.z));

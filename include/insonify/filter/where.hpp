@@ -93,41 +93,48 @@ struct where_filter {
     }
 };
 
-/// Applies a filter where `mask` is not 0; the other pixels are unchanged. Measured filters measure the masked pixels
-/// alone, so their masks don't nest: pass one mask that combines them. A mask of zeros leaves the image unchanged.
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
+
+using kept_mask = std::shared_ptr<const image<std::uint8_t>>;
+
+template <class F>
+where_filter<F> masked(image_view<const std::uint8_t> mask, const kept_mask& kept, F filter) {
+    return {mask, std::move(filter), kept};
+}
+/// Each stage of a chain.
+template <class... Stages>
+filter_chain<where_filter<Stages>...> masked(image_view<const std::uint8_t> mask, const kept_mask& kept,
+                                             const filter_chain<Stages...>& chain) {
+    return std::apply(
+        [&](const Stages&... stages) {
+            return filter_chain<where_filter<Stages>...>{{{mask, stages, kept}...}};
+        },
+        chain.stages);
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
+
+/// Applies a filter, or each stage of a chain, where `mask` is not 0; the other pixels are unchanged. Measured filters
+/// measure the masked pixels alone, so their masks don't nest: pass one mask that combines them. A mask of zeros leaves
+/// the image unchanged.
 ///
 ///     image | where(is_seabed, match_histogram(pixels_where(reference_mask, reference)))
 ///
-/// @param mask    of the image's size; its pixels must exist until the filter has run. A temporary image is kept
+/// @param mask    of the image's size; its pixels must exist until the filter has run
 /// @param filter  of pixels or measured, not of images, with results of the same pixel type
-template <class F>
-    requires(!detail::is_chain<std::decay_t<F>>)
-where_filter<std::decay_t<F>> where(image_view<const std::uint8_t> mask, F&& filter) {
-    return {mask, std::forward<F>(filter)};
+template <class Filter>
+auto where(image_view<const std::uint8_t> mask, const Filter& filter) {
+    return detail::masked(mask, nullptr, filter);
 }
-template <class F>
-    requires(!detail::is_chain<std::decay_t<F>>)
-where_filter<std::decay_t<F>> where(image<std::uint8_t>&& mask, F&& filter) {
+/// The same with a mask that is a temporary, which the filter keeps.
+template <class Filter>
+auto where(image<std::uint8_t>&& mask, const Filter& filter) {
     const auto kept = std::make_shared<const image<std::uint8_t>>(std::move(mask));
-    return {kept->view(), std::forward<F>(filter), kept};
-}
-/// The same for each stage of a chain.
-template <class... Stages>
-filter_chain<where_filter<Stages>...> where(image_view<const std::uint8_t> mask, const filter_chain<Stages...>& chain) {
-    return std::apply(
-        [&](const Stages&... stages) {
-            return filter_chain<where_filter<Stages>...>{{{mask, stages}...}};
-        },
-        chain.stages);
-}
-template <class... Stages>
-filter_chain<where_filter<Stages>...> where(image<std::uint8_t>&& mask, const filter_chain<Stages...>& chain) {
-    const auto kept = std::make_shared<const image<std::uint8_t>>(std::move(mask));
-    return std::apply(
-        [&](const Stages&... stages) {
-            return filter_chain<where_filter<Stages>...>{{{kept->view(), stages, kept}...}};
-        },
-        chain.stages);
+    return detail::masked(kept->view(), kept, filter);
 }
 
 }  // namespace INSONIFY_FLAGS

@@ -101,7 +101,7 @@ class scene_occlusion {
         detail::require(!within.box.empty() && numeric::is_finite(size.x + size.y + size.z),
                         "occlusion_bounds.box.size()", size.x + size.y + size.z, "that of a box around the points");
         seabed::detail::require_metres("occlusion_bounds.cell", within.cell);
-        detail::require_range("occlusion_bounds.reach", within.reach, 0, 1e6, "0 to 10^6");
+        detail::require_range("occlusion_bounds.reach", within.reach, 0, 1e6, "0 to 10^6 longer sides");
         seabed::detail::require_position("occlusion_bounds.box.lower", glm::dvec2(within.box.lower));
         seabed::detail::require_position("occlusion_bounds.box.upper", glm::dvec2(within.box.upper));
     }

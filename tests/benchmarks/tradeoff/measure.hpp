@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <ctime>
 #include <string>
@@ -12,7 +13,7 @@
 namespace cost {
 
 /// Bytes allocated now, and the peak since the start of the last run. main.cpp's operators new and delete count them.
-inline std::size_t allocated = 0, peak = 0;
+inline std::atomic<std::size_t> allocated = 0, peak = 0;
 
 /// Processor time of this process, milliseconds; independent of other load.
 inline double busy_ms() {
@@ -28,7 +29,8 @@ struct figures {
     /// Measures one more run.
     template <class Work>
     void run(const Work& work) {
-        const std::size_t before = peak = allocated;
+        const std::size_t before = allocated;
+        peak = before;
         const double start = busy_ms();
         work();
         ms = std::min(ms, busy_ms() - start);

@@ -71,7 +71,7 @@ double displacement_of(const in::image<std::uint8_t>& dark, const trial& t, E& e
            std::max(static_cast<double>(found.boundary_pixels), t.rig.size.x / 4.0);
 }
 
-/// That of a picture by the settings.
+/// Displacement of the edges of shadows in a picture by the settings.
 template <class Shadow, class E>
 double displacement(const trial& t, const acc::settings<Shadow>& how, E& ex) {
     in::scene scene;
@@ -80,7 +80,7 @@ double displacement(const trial& t, const acc::settings<Shadow>& how, E& ex) {
     return displacement_of(dark_of(frame.labels), t, ex);
 }
 
-/// The same of a picture that is lit all over: a budget below it can only be kept with shadows.
+/// Displacement where nothing is in shadow: a budget below it can only be kept with shadows.
 template <class E>
 double displacement_without_shadows(const trial& t, E& ex) {
     return displacement_of(in::image<std::uint8_t>(t.rig.size.x, t.rig.size.y), t, ex);
@@ -106,7 +106,7 @@ TEST_CASE("Scenes stay within a budget of 1 or 4 pixels of shadow edge, and the 
     }
 }
 
-TEST_CASE("What is expected of the finest grid is its error, not its difference from itself") {
+TEST_CASE("settings_for() compares the finest grid with a finer truth") {
     in::thread_pool pool(2);
     const in::overhead rig{.altitude = 4, .size = {96, 96}, .grazing = 6_deg};
     in::scene scene;

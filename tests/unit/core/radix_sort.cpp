@@ -15,19 +15,19 @@ using in::detail::keyed;
 
 TEST_CASE("The ordered bits of floats compare as the floats do, with -0 below 0 and NaN at the ends") {
     using in::detail::from_ordered_bits, in::detail::ordered_bits;
-    using limits = std::numeric_limits<float>;
-    const float ascending[] = {-limits::quiet_NaN(),
-                               -limits::infinity(),
-                               limits::lowest(),
+    using own = std::numeric_limits<float>;
+    const float ascending[] = {-own::quiet_NaN(),
+                               -own::infinity(),
+                               own::lowest(),
                                -1.0f,
-                               -limits::denorm_min(),
+                               -own::denorm_min(),
                                -0.0f,
                                0.0f,
-                               limits::denorm_min(),
+                               own::denorm_min(),
                                1.0f,
-                               (limits::max)(),
-                               limits::infinity(),
-                               limits::quiet_NaN()};
+                               (own::max)(),
+                               own::infinity(),
+                               own::quiet_NaN()};
     for (std::size_t i = 0; i < std::size(ascending); ++i) {
         const std::uint32_t bits = ordered_bits(ascending[i]);
         CHECK(in::numeric::bit_cast<std::uint32_t>(from_ordered_bits(bits)) ==

@@ -26,7 +26,7 @@ in::image<float> noisy(const Noise& noise, float value = level) {
 
 /// Distance of pixel / level from a law: see moments::kolmogorov_smirnov.
 template <class Cumulative>
-double distance(const in::image<float>& picture, const Cumulative& law) {
+double distance_of_ratio(const in::image<float>& picture, const Cumulative& law) {
     return moments::kolmogorov_smirnov(picture.pixels(), [&](double v) { return law(v / static_cast<double>(level)); });
 }
 
@@ -39,28 +39,28 @@ double three_looks(double x) {
 }  // namespace
 
 TEST_CASE("Intensities follow their laws") {
-    CHECK(distance(noisy(in::rayleigh{.of = in::echo::intensity, .seed = 1}),
-                   [](double x) { return 1 - std::exp(-x); }) < once_in_1000);
-    CHECK(distance(noisy(in::gamma_speckle{.looks = 3, .of = in::echo::intensity, .seed = 2}), three_looks) <
+    CHECK(distance_of_ratio(noisy(in::rayleigh{.of = in::echo::intensity, .seed = 1}),
+                            [](double x) { return 1 - std::exp(-x); }) < once_in_1000);
+    CHECK(distance_of_ratio(noisy(in::gamma_speckle{.looks = 3, .of = in::echo::intensity, .seed = 2}), three_looks) <
           once_in_1000);
     // Chi-square of one degree.
-    CHECK(distance(noisy(in::gamma_speckle{.looks = 0.5f, .of = in::echo::intensity, .seed = 3}, level),
-                   [](double x) { return std::erf(std::sqrt(x / 2)); }) < once_in_1000);
+    CHECK(distance_of_ratio(noisy(in::gamma_speckle{.looks = 0.5f, .of = in::echo::intensity, .seed = 3}, level),
+                            [](double x) { return std::erf(std::sqrt(x / 2)); }) < once_in_1000);
     // K of shape 1/2: P(I > t) = exp(-sqrt(2 t)), from the integral of exp(-t / tau) over chi-square textures.
-    CHECK(distance(
+    CHECK(distance_of_ratio(
               noisy(in::k_speckle{.shape = 0.5f, .of = in::echo::intensity, .seed = 4}, level / 4) |
                   [](float v) { return 4 * v; },
               [](double x) { return 1 - std::exp(-std::sqrt(2 * x)); }) < once_in_1000);
-    CHECK(distance(noisy(in::rician{.steady = 0, .of = in::echo::intensity, .seed = 5}),
-                   [](double x) { return 1 - std::exp(-x); }) < once_in_1000);
+    CHECK(distance_of_ratio(noisy(in::rician{.steady = 0, .of = in::echo::intensity, .seed = 5}),
+                            [](double x) { return 1 - std::exp(-x); }) < once_in_1000);
 }
 
 TEST_CASE("Amplitudes follow their laws, with the mean of the image") {
-    CHECK(distance(noisy(in::rayleigh{.seed = 1}),
-                   [](double x) { return 1 - std::exp(-x * x * in::numeric::pi / 4); }) < once_in_1000);
+    CHECK(distance_of_ratio(noisy(in::rayleigh{.seed = 1}),
+                            [](double x) { return 1 - std::exp(-x * x * in::numeric::pi / 4); }) < once_in_1000);
     const double mean_root = in::detail::mean_root_of_gamma(3);
-    CHECK(distance(noisy(in::gamma_speckle{.looks = 3, .seed = 2}),
-                   [&](double x) { return three_looks(x * x * mean_root * mean_root); }) < once_in_1000);
+    CHECK(distance_of_ratio(noisy(in::gamma_speckle{.looks = 3, .seed = 2}),
+                            [&](double x) { return three_looks(x * x * mean_root * mean_root); }) < once_in_1000);
     for (const auto& picture : {noisy(in::rayleigh{}), noisy(in::gamma_speckle{}), noisy(in::k_speckle{}),
                                 noisy(in::rician{}), noisy(in::rician{.steady = 20})}) {
         const auto m = of(picture);

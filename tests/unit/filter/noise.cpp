@@ -46,7 +46,7 @@ void check_moments(const in::image<float>& image, double mean, double variance, 
 
 /// See moments::kolmogorov_smirnov.
 template <class Cumulative>
-double distance(const in::image<float>& picture, const Cumulative& law) {
+double distance_from_law(const in::image<float>& picture, const Cumulative& law) {
     return moments::kolmogorov_smirnov(picture.pixels(), law);
 }
 
@@ -85,13 +85,13 @@ TEST_CASE("Clipped poisson noise has the moments of MATLAB's uint8 rule") {
 }
 
 TEST_CASE("Noise follows its law") {
-    CHECK(distance(flat(0.5f) | in::gaussian{.mean = 0.02f, .variance = 0.0025f, .seed = 21},
-                   [](double v) { return normal_cdf((v - 0.52) / 0.05); }) < once_in_1000);
-    CHECK(distance(flat(0.5f) | in::speckle{.variance = 0.1f, .seed = 22},
-                   [](double v) { return (v - 0.5) / (2 * 0.5 * std::sqrt(0.3)) + 0.5; }) < once_in_1000);
-    CHECK(distance(flat(0.5f) | in::gaussian_speckle{.variance = 0.01f, .seed = 23},
-                   [](double v) { return normal_cdf((v - 0.5) / 0.05); }) < once_in_1000);
-    CHECK(distance(flat(0.125f) | in::rayleigh{.seed = 24}, [](double v) {
+    CHECK(distance_from_law(flat(0.5f) | in::gaussian{.mean = 0.02f, .variance = 0.0025f, .seed = 21},
+                            [](double v) { return normal_cdf((v - 0.52) / 0.05); }) < once_in_1000);
+    CHECK(distance_from_law(flat(0.5f) | in::speckle{.variance = 0.1f, .seed = 22},
+                            [](double v) { return (v - 0.5) / (2 * 0.5 * std::sqrt(0.3)) + 0.5; }) < once_in_1000);
+    CHECK(distance_from_law(flat(0.5f) | in::gaussian_speckle{.variance = 0.01f, .seed = 23},
+                            [](double v) { return normal_cdf((v - 0.5) / 0.05); }) < once_in_1000);
+    CHECK(distance_from_law(flat(0.125f) | in::rayleigh{.seed = 24}, [](double v) {
               return 1 - std::exp(-(v / 0.125) * (v / 0.125) * in::numeric::pi / 4);
           }) < once_in_1000);
 }
@@ -226,7 +226,7 @@ TEST_CASE("Noise on ten million pixels: moments after clipping, tails to 4.5 sig
         check_moments(in::image<float>(4096, 2560, 0.8f) | in::speckle{.variance = 0.1f, .seed = seed}, 0.76763,
                       0.04487, 1e-5, 1e-5);
         const auto normal = half | in::gaussian{.variance = 0.0025f, .seed = seed};
-        CHECK(distance(normal, [](double v) { return normal_cdf((v - 0.5) / 0.05); }) < once_in_1000);
+        CHECK(distance_from_law(normal, [](double v) { return normal_cdf((v - 0.5) / 0.05); }) < once_in_1000);
         for (const double sigmas : {2.0, 3.0, 4.0, 4.5}) {
             const double expected = n * normal_cdf(-sigmas);
             double above = 0, below = 0;

@@ -204,6 +204,26 @@ TEST_CASE("A gap that ends at sampled positions is as wide on both sides of the 
     }
 }
 
+TEST_CASE("In a gap no bin has a label of seabed, on either side, in ground range and in slant range") {
+    const auto bed = [](double x, double) { return x > 8 && x < 12 ? no_data : 0.0f; };
+    in::scene s = over(ground{bed, 0, 0});
+    s.add(in::cube{}, {.position = {14, 0, 0.5}}, "cube");  // rays to it pass over the gap
+    const in::record_options<> options{.cell = 1};
+    const auto check = [&](auto rig) {
+        rig.ping_spacing = 1, rig.pings = 1, rig.range = 13, rig.bins = 260;
+        const auto frame = in::render(s, rig, options);
+        int labelled = 0, silent = 0;
+        for (int b = 0; b < 260; ++b) {
+            labelled += frame.labels.seabed(b, 0) != in::labels::no_seabed;
+            silent += frame.labels.seabed(b, 0) != in::labels::no_seabed && frame.image(b, 0) == 0;
+        }
+        CHECK(labelled > 80);
+        CHECK(silent <= 2);  // at the borders
+    };
+    check(in::side_scan{});
+    check(in::ground_range{});
+}
+
 TEST_CASE("A window that begins behind a step has the labels of the whole recording") {
     for (double at = 8.6; at < 8.8; at += 0.01) {  // the window begins in the shadow of the step, or just beyond it
         in::scene s = over(ground{[=](double x, double) { return x < at ? 0.0f : 0.5f; }, 0, 0.5});
@@ -306,9 +326,9 @@ TEST_CASE("A shadow is labelled with the target that covers most of a ray, howev
 }
 
 TEST_CASE("Cells so small that the seabed would not fit into memory are refused") {
-    const in::side_scan rig{.pings = 1, .range = 1000, .bins = 100};
+    const in::side_scan rig{.ping_spacing = 1, .pings = 100, .range = 1000, .bins = 100};
     in::record_options<> options;
-    options.cell = 1e-6;
+    options.cell = 1e-3;
     CHECK_THROWS_WITH(in::render(over(in::seabed::flat{}), rig, options), ContainsSubstring("seabed tiles"));
 }
 

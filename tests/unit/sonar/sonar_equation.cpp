@@ -232,7 +232,7 @@ TEST_CASE("A pulse may be as long as the recorded range, also where floats round
     };
     CHECK_NOTHROW(record(0, 1, 49, 1));  // 1.0 / 49 * 49 is below 1
     for (const float first : {1.3f, 17.7f, 60.0f, 999.9f}) CHECK_NOTHROW(record(first, first + 0.01f, 128, 0.01f));
-    CHECK_THROWS_WITH(record(0, 1, 49, 1.001f), ContainsSubstring("metres of range"));
+    CHECK_THROWS_WITH(record(0, 1, 49, 1.001f), ContainsSubstring("at most range - first_range"));
 }
 
 TEST_CASE("The water column holds the noise floor alone, scaled by the gain") {
@@ -261,27 +261,38 @@ TEST_CASE("Parts that are left out have no effect, and own parts can be added") 
 namespace {
 
 struct own_direction {
+    static constexpr const char* name = "over_direction()";
     double factor;
     double over_direction(double, double) const { return factor; }
 };
 struct own_range {
+    static constexpr const char* name = "over_range()";
     double factor;
     double over_range(double) const { return factor; }
 };
 struct own_noise {
+    static constexpr const char* name = "noise()";
     double intensity;
     double noise() const { return intensity; }
 };
 struct own_pulse {
+    static constexpr const char* name = "range_length()";
     double length;
     double range_length() const { return length; }
 };
-/// A gain whose second argument is the function object of the equation, by its own type.
+/// A gain that names no type for the function object of the equation.
 struct own_gain {
+    static constexpr const char* name = "gain()";
     double factor;
     double gain(const in::flat_echo& e, const auto& level_at) const {
         return factor / level_at((std::min)(0.7, e.altitude / e.range));
     }
+};
+struct own_beam {
+    double footprint_factor = 1, reach_factor = 1, pattern_factor = 1;
+    double footprint(double range) const { return footprint_factor * 0.01 * range; }
+    double reach(double range) const { return reach_factor * 0.02 * range; }
+    double pattern(double, double) const { return pattern_factor; }
 };
 
 }  // namespace
@@ -290,7 +301,18 @@ TEMPLATE_TEST_CASE("Parts of your own that return NaN or less than 0 are refused
                    own_direction, own_range, own_noise, own_pulse, own_gain) {
     const auto use = [](double value) { (void)heard(level_bottom(), in::sonar_equation<TestType>{TestType{value}}); };
     use(0.5);
-    for (const double wrong : {-1.0, std::nan("")}) CHECK_THROWS_AS(use(wrong), in::invalid_input);
+    for (const double wrong : {-1.0, std::nan("")})
+        CHECK_THROWS_WITH(use(wrong), ContainsSubstring(TestType::name) && ContainsSubstring("of the sonar equation"));
+}
+
+TEST_CASE("A horizontal beam of your own that returns NaN or less than 0 is refused by the name of its function") {
+    const auto use = [](const own_beam& beam) { (void)heard(level_bottom(), in::sonar_equation<own_beam>{beam}); };
+    use({});
+    for (const double wrong : {-1.0, std::nan("")}) {
+        CHECK_THROWS_WITH(use({.footprint_factor = wrong}), ContainsSubstring("footprint()"));
+        CHECK_THROWS_WITH(use({.reach_factor = wrong}), ContainsSubstring("pings in the horizontal beam"));
+        CHECK_THROWS_WITH(use({.pattern_factor = wrong}), ContainsSubstring("pattern()"));
+    }
 }
 
 TEST_CASE("Sediments differ in brightness as in the table") {

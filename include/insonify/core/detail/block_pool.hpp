@@ -53,7 +53,7 @@ class block_pool {
         kept_ += size;
     }
 
-    /// Frees the kept blocks, and forgets the peak in use: blocks are kept again as if the first use began now.
+    /// Frees the kept blocks and resets the peak, so that blocks in use are freed, not kept.
     INSONIFY_TAGGED void release() noexcept {
         const guard lock(busy_);
         while (count_ > 0) free_oldest();

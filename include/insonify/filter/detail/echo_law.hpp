@@ -102,7 +102,9 @@ class echo_law {
     /// Prepares fields under which the correlation of the intensities has the given length.
     void correlate(const correlation_length& length) {
         const parameter &looks = statistics_.looks, &shape = statistics_.shape, &steady = statistics_.steady;
-        const float whole = looks.is_constant() ? looks.value() : 0;
+        if (!looks.is_constant())
+            refuse_text("looks of correlated speckle", "a map", "one whole number for all pixels, 1 to 64");
+        const float whole = looks.value();
         require(whole >= 1 && whole <= 64 && whole == static_cast<float>(static_cast<int>(whole)),
                 "number of looks of correlated speckle", whole, "a whole number, 1 to 64, for all pixels");
         if (shape.is_constant() && shape.value() > 0) texture_.emplace(static_cast<double>(shape.value()));

@@ -37,11 +37,11 @@ void run_pass(image_view<const From> from, image_view<To> to, const Pass& pass, 
     constexpr int farthest = 1 << 30;
     require_range("origin.x", origin.x, -farthest, farthest, "within 2^30");
     require_range("origin.y", origin.y, -farthest, farthest, "within 2^30");
-    // Correlated noise also draws the pixels around the image.
-    constexpr std::int64_t most = (std::int64_t{1} << 31) - 1024;
-    require(std::int64_t{origin.x} + from.width() <= most, "origin.x", origin.x, "at most 2^31 - 1024 less the width");
-    require(std::int64_t{origin.y} + from.height() <= most, "origin.y", origin.y,
-            "at most 2^31 - 1024 less the height");
+    // Correlated noise evaluates up to 1024 pixels beyond the image; their coordinates must fit an int.
+    constexpr std::int64_t upper_bound = (std::int64_t{1} << 31) - 1024;
+    require(std::int64_t{origin.x} + from.width() <= upper_bound, "origin.x", origin.x, "at most 2^31 - 1024 - width");
+    require(std::int64_t{origin.y} + from.height() <= upper_bound, "origin.y", origin.y,
+            "at most 2^31 - 1024 - height");
     Pass prepared = pass;
     prepare_pass(prepared, {origin.x, origin.y, from.width(), from.height()});
     // A pass that computes rows above has long bands, and keeps those rows for one column of runs at a time.

@@ -212,7 +212,7 @@ template <class P>
 concept noise_part = requires(const P& p) {
     { p.noise() } -> std::convertible_to<double>;
 };
-/// Stands for the function object that gains get, which is of another type in each equation.
+/// Placeholder for the `level_at` argument of gain(), whose type depends on the equation.
 struct any_level {
     double operator()(double sine) const;
 };

@@ -1,9 +1,9 @@
 // The echo of one ping, bin by bin.
 //
-// Source and receiver coincide, so the first surface along a ray is both insonified and received. A ray's power is
-// distributed evenly over the bins between the ranges at which its edges meet the surface, so that level ground has no
-// gaps and no beats between rays and bins. Seabed that no ray meets is in shadow; its caster is the surface that the
-// rays met in front of it.
+// The sonar is monostatic, so the first surface along a ray is both insonified and received. A ray's power is
+// distributed evenly over the bins between the ranges at which its edges meet the surface; level ground then shows
+// neither gaps nor moire between rays and bins. Seabed that no ray meets is in shadow; its caster is the surface that
+// the rays met in front of it.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
@@ -118,7 +118,7 @@ class ping_tracer {
             const double across = fan_[k].sine * cosine_roll + fan_[k].cosine * sine_roll,
                          down = fan_[k].cosine * cosine_roll - fan_[k].sine * sine_roll;
             const double factor = equation_.over_direction(across, down);
-            insonify::detail::require(factor >= 0, "over_direction() of the sonar equation", factor, "0 or more");
+            insonify::detail::require_not_negative("over_direction() of the sonar equation", factor);
             ray_power_[k] = thickness * static_cast<float>(fan_[k].width * factor);
         }
     }
@@ -151,7 +151,8 @@ class ping_tracer {
         glm::dvec2 at(double f) const { return {x + f * dx, p.down + f * ddown}; }
     };
 
-    /// Goes outwards along the profile, which rays meet in order. Bottom below the last ray that met it is in shadow.
+    /// Walks the profile outwards; rays meet it in order. Bottom below the line of sight over the outermost lit vertex
+    /// (the horizon) is in shadow.
     void trace_bottom(const ping_frame& ping) {
         double horizon_x = 0, horizon_down = 1;
         // Rays that meet the bottom in front of the profile go no further.
@@ -168,9 +169,10 @@ class ping_tracer {
             const bottom_point &p = profile_[i], &q = profile_[i + 1];
             const facet part{p, q, px, qx - px, q.down - p.down, next_begin, position(i + 1)};
             next_begin = part.end;
+            const bool is_gap = part.ddown != part.ddown;  // rays pass through, and nothing is labelled
             const double above = qx * horizon_down - q.down * horizon_x;
             if (!(above > 0)) {
-                if (Labelled && part.ddown == part.ddown) label(part, 0, 1, caster_below_horizon({qx, q.down}));
+                if (Labelled && !is_gap) label(part, 0, 1, caster_below_horizon({qx, q.down}));
                 continue;
             }
             // The part above the horizon. Labels divide it halfway between rays, as the rays' power does.
@@ -185,7 +187,7 @@ class ping_tracer {
                 const double f = before / (before - ping_fan::beyond(ray, qx, q.down));
                 const glm::dvec2 met = part.at(f);
                 const double range = met.x * ray.sine + met.y * ray.cosine;
-                if (Labelled && has_targets_ && k > first) {
+                if (Labelled && has_targets_ && !is_gap && k > first) {
                     const double between = 0.5 * (last_met + f);
                     label(part, from, between, occluder(k - 1, part.at(last_met)));
                     from = between;
@@ -193,7 +195,7 @@ class ping_tracer {
                 last_met = f;
                 if (range <= farthest_ + axis_.bin) add_bottom_echo(ping, k, range, part, static_cast<float>(f));
             }
-            if constexpr (Labelled)
+            if (Labelled && !is_gap)
                 label(part, from, 1,
                       has_targets_ ? occluder(k > first ? k - 1 : k, part.at(last_met)) : labels::is_lit);
             horizon_x = qx, horizon_down = q.down;

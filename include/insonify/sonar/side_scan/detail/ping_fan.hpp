@@ -1,7 +1,7 @@
 // The rays of a ping, in the plane across the track, from nadir outwards.
 //
-// Rays that meet level ground within the range have equal steps there. Flatter ones, up to the zenith, meet objects
-// above it and have equal angles: neighbours are at most a bin apart on a vertical wall at the largest range.
+// Rays that meet level ground within the range are equally spaced on it. Those farther out, up to the zenith, meet
+// objects above it and are equally spaced in angle: at most a bin apart on a vertical wall at the largest range.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
@@ -47,8 +47,8 @@ class ping_fan {
 
     ping_fan() = default;
 
-    /// @param step         metres between rays on level ground, and between neighbours on a wall at the largest range
-    /// @param first_range, range  metres; nearer and farther surfaces need no rays
+    /// @param step                metres between adjacent rays: on level ground, and on a wall at the largest range
+    /// @param first_range, range  slant ranges, metres; nearer and farther surfaces need no rays
     ping_fan(const fan_shape& shape, double step, double first_range, double range) : shape_(shape) {
         const double low = shape.above_lowest;
         if (!(low > 0)) return;
@@ -57,14 +57,15 @@ class ping_fan {
             return r > height ? numeric::square_root(r * r - height * height) / height : 0;
         };
         const double spacing = step / low;
-        // Ground higher than the lowest is met up to the largest range by flatter rays. They end with those for ground
-        // at a sixteenth of the lowest one's depth.
+        // Ground above the lowest needs rays farther out to be met up to the largest range. They end at those that meet
+        // ground a sixteenth as deep as the lowest.
         const double flattest = (std::max)(1.0, 16 * range / low);
         const double end =
             shape.above_highest > 0 ? (std::min)(tangent_at(range, shape.above_highest), flattest) : flattest;
         const std::int64_t first = numeric::floor_to_int(tangent_at(first_range, low) / spacing);
         const std::int64_t last = numeric::floor_to_int(end / spacing) + 1;
-        require(last - first < (1 << 25), "rays of a ping", last - first, "below 2^25: take wider bins");
+        require(last - first < (1 << 25), "rays of a ping", last - first,
+                "below 2^25: take wider bins or larger cells");
         rays_.reserve(static_cast<std::size_t>(last - first));
         for (std::int64_t i = first; i < last; ++i) {
             const double tangent = (static_cast<double>(i) + 0.5) * spacing;
@@ -76,6 +77,8 @@ class ping_fan {
         const double up_to = shape.above_all > 0 ? numeric::atan2(range, shape.above_all) : numeric::pi;
         const double angle = step / range;
         wall_from_ = from, wall_angle_ = angle;
+        require((up_to - from) / angle < 0x1p25, "rays of a ping above the ground", (up_to - from) / angle,
+                "below 2^25: take wider bins or larger cells");
         for (std::int64_t i = 0; from + angle * static_cast<double>(i) < up_to; ++i) {
             const auto [sine, cosine] = numeric::sin_cos(from + angle * (static_cast<double>(i) + 0.5));
             rays_.push_back({sine, cosine, angle});

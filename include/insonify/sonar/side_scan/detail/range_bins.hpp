@@ -53,7 +53,7 @@ inline int beam_reach(const equation_interface& equation, const range_bins& wind
     const double range = static_cast<double>(window.range), altitude = static_cast<double>(window.altitude);
     const double slant = window.counts_time ? range : numeric::square_root(range * range + altitude * altitude);
     const double pings = equation.beam_reach(slant) / static_cast<double>(window.ping_spacing);
-    require(pings < 4096, "pings in the horizontal beam", pings, "below 4096");
+    require(pings >= 0 && pings < 4096, "pings in the horizontal beam", pings, "0 or more, below 4096");
     return static_cast<int>(pings);
 }
 

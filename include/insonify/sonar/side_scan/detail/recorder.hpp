@@ -14,8 +14,8 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The longer of a bin and the ping spacing; in coarse pictures a fiftieth of the altitude, so that relief and targets
-/// are not missed, unless the nominal altitude is not above 0; at least 1/2048 of the range.
+/// The default cell: the longer of a bin and the ping spacing; at most a fiftieth of the altitude, if that is above 0,
+/// so that coarse pictures do not miss relief and targets; at least 1/2048 of the range.
 inline double default_cell(const range_bins& window) {
     double cell = (std::max)(window.bin(), static_cast<double>(window.ping_spacing));
     if (window.altitude > 0) cell = (std::min)(cell, static_cast<double>(window.altitude) / 50);
@@ -61,12 +61,12 @@ class recorder {
         : scene_(s), track_(track), window_(window), options_(options), equation_(options.equation) {
         materials_ = checked_materials(s, options);
         for (std::size_t i = 0; i < track.size(); ++i) validate(track[i], element_name("track", i));
-        // Either end is a rounded float, so that the difference may be less than the metres that were meant.
+        // Both ends are rounded floats, so their difference may fall short of the intended length.
         const double recorded = static_cast<double>(window.range) - static_cast<double>(window.first_range);
-        require(equation_.pulse_length() >= 0, "pulse.length", equation_.pulse_length(), "0 metres or more");
+        require_not_negative("range_length() of the sonar equation", equation_.pulse_length());
         require_not_negative("noise() of the sonar equation", equation_.noise());
         require(equation_.pulse_length() <= recorded + 0x1p-23 * static_cast<double>(window.range), "pulse.length",
-                equation_.pulse_length(), "at most the metres of range that are recorded");
+                equation_.pulse_length(), "at most range - first_range, in metres");
         out_.rows.side = window.facing;
         require(options.cell == 0 || options.cell >= 0x1p-20 * static_cast<double>(window.range), "cell", options.cell,
                 "0, or at least 2^-20 of the range");
@@ -144,7 +144,7 @@ class recorder {
     std::span<const float> losses_at(const ping& p, bin_factors& losses) const {
         if (!equation_.has_ranges()) return {};
         const double altitude = window_.counts_time ? 0 : p.position.z;
-        return losses.at(altitude, window_.bins, "over_range() of the sonar equation",
+        return losses.at(altitude, window_.bins, "over_range() and footprint() of the sonar equation",
                          [&](std::size_t b) { return equation_.over_range(slant_of(b, altitude), spacing()); });
     }
 
@@ -197,8 +197,10 @@ class recorder {
             const double slant = slant_of(static_cast<std::size_t>(b), static_cast<double>(window_.altitude));
             double sum = 0;
             const auto weight = [&](int j) {
-                return j * spacing() <= equation_.beam_reach(slant) ? equation_.beam_pattern(j * spacing(), slant)
-                                                                    : 0.0;
+                if (j * spacing() > equation_.beam_reach(slant)) return 0.0;
+                const double factor = equation_.beam_pattern(j * spacing(), slant);
+                require_not_negative("pattern() of the sonar equation", factor);
+                return factor;
             };
             for (int j = -reach; j <= reach; ++j) sum += weight(numeric::abs(j));
             for (int j = 0; j <= reach; ++j) weights(b, j) = static_cast<float>(weight(j) / sum);

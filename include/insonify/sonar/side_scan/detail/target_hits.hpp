@@ -1,4 +1,5 @@
-// First hits of a ping's rays with the targets, with exact fractional coverage of each ray's width.
+// First hits of a ping's rays with the targets, and the fraction of each ray's width that they cover: exact for up to
+// max_parts segments per ray, sampled for more.
 //
 // The cross-section of the targets with a ping's plane is a set of line segments. Their ends divide each ray's width
 // into parts; in each part the nearest segment is hit, weighted by the part's fraction of the width. A bar
