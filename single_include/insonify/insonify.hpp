@@ -3188,7 +3188,7 @@ enum class noise_stream : std::uint32_t {
     texture
 };
 
-/// Key of a filter's draws, besides the pixel.
+/// Key of a filter's random draws; the pixel's position is in the counter.
 struct noise_key {
     philox_key key;
     std::uint32_t frame;
@@ -3639,7 +3639,7 @@ using normal_fields = field_draws<normal_draws>;
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/filter/detail/gamma_texture.hpp --------------------------------------------------
-// Correlated gamma-distributed numbers of mean one: the gamma law's quantiles at correlated normal numbers, tabulated.
+// Correlated gamma variates of mean 1: quantiles of the gamma distribution at correlated normal variates, tabulated.
 //
 // Based on: Mircea Grigoriu. Applied Non-Gaussian Processes. 1995 (translation processes: a memoryless function of a
 // Gaussian field has any distribution, and a correlation that follows from the field's).
@@ -3667,7 +3667,7 @@ class gamma_texture {
         return values_[knot] + t * (values_[knot + 1] - values_[knot]);
     }
 
-    /// Correlation of two numbers whose normal numbers have the correlation r, 0 to 1.
+    /// Correlation of two gamma variates whose normal variates have the correlation r, 0 to 1.
     double correlation(double r) const {
         double sum = 0;
         for (std::size_t k = terms; k-- > 0;) sum = (sum + powers_[k]) * r;
@@ -3682,7 +3682,8 @@ class gamma_texture {
 
     /// Integrates the density of y = ln t, exp(shape (1 + y - e^y)), and reads it off at normal probabilities.
     void tabulate(double shape) {
-        const double spread = numeric::square_root(160 / shape) + 60 / shape;  // where the density is e^-40 of its peak
+        // Beyond the interval the density is below e^-40 of its peak, or t below e^-60.
+        const double spread = numeric::square_root(160 / shape) + 60 / shape;
         const double low = -(std::min)(spread, 60.0), high = numeric::log(1 + spread), dy = (high - low) / intervals;
         const auto density = [&](double y) { return numeric::exp(shape * (1 + y - numeric::exp(y))); };
         dynamic_array<double> below{density(low) / shape};  // the tail to the left is exponential
@@ -3854,8 +3855,8 @@ struct echo_factor {
     }
 };
 
-/// How intensities are drawn: `by_looks`, exponential for one look and else gamma. It depends on the filter's type and
-/// not on its maps of parameters, so that a map of equal numbers gives the noise of that number.
+/// How intensities are drawn; `by_looks` is exponential for one look, else gamma. The choice never depends on whether a
+/// parameter is a map, so that a map of equal values gives the same noise as that value.
 enum class echo_draw { exponential, gamma, by_looks, rice };
 
 /// Statistics of an intensity: the three numbers of a speckle_law, by pixel.
@@ -4418,27 +4419,27 @@ class level_map {
     std::shared_ptr<const dynamic_array<Pixel>> values_;  // passes are copied; the table isn't
 };
 
-/// The map of histeq: each source level goes to the first level of `wanted` whose cumulative share reaches the
-/// source's, less half of the level's own share except at the first and the last level.
+/// Maps `source` to `reference` as MATLAB's histeq does: a level goes to the first reference level whose cumulative
+/// fraction reaches that of the source, which counts half of the level itself except at the first and the last level.
 template <class Pixel>
-level_map<Pixel> map_levels(std::span<const std::uint64_t> source, std::span<const std::uint64_t> wanted) {
+level_map<Pixel> map_levels(std::span<const std::uint64_t> source, std::span<const std::uint64_t> reference) {
     const auto total = [](std::span<const std::uint64_t> counts) {
         return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
     };
     const auto source_total = static_cast<double>((std::max)(total(source), std::uint64_t{1}));
-    const auto wanted_total = static_cast<double>(total(wanted));
+    const auto reference_total = static_cast<double>(total(reference));
     constexpr double tolerance = 0x1p-26;
     const std::size_t levels = source.size();
     dynamic_array<Pixel> values(levels);
-    std::uint64_t below = 0, reached = wanted[0];
+    std::uint64_t below = 0, reached = reference[0];
     std::size_t target = 0;
     for (std::size_t level = 0; level < levels; ++level) {
         below += source[level];
         const bool inner = level > 0 && level + 1 < levels;
-        const double share = static_cast<double>(below) - (inner ? 0.5 * static_cast<double>(source[level]) : 0);
-        while (static_cast<double>(reached) / wanted_total < share / source_total - tolerance)
-            reached += wanted[++target];
-        const double value = static_cast<double>(target) / static_cast<double>(wanted.size() - 1);
+        const double cumulative = static_cast<double>(below) - (inner ? 0.5 * static_cast<double>(source[level]) : 0);
+        while (static_cast<double>(reached) / reference_total < cumulative / source_total - tolerance)
+            reached += reference[++target];
+        const double value = static_cast<double>(target) / static_cast<double>(reference.size() - 1);
         if constexpr (std::is_same_v<Pixel, float>)
             values[level] = static_cast<float>(value);
         else
@@ -5160,7 +5161,7 @@ struct pass_by_reference {
     void row(const From* from, To* to, int count, int x, int y) const { stage->row(from, to, count, x, y); }
 };
 
-/// The pass before the first stage.
+/// The identity: the pass before the first stage.
 struct untouched {
     template <class Pixel>
     INSONIFY_INLINE Pixel operator()(const Pixel& pixel, int, int) const {
@@ -9483,7 +9484,7 @@ INSONIFY_INLINE void visit_columns(const lattice& l, const stretch& part, std::i
     }
 }
 
-/// Mounds and pock marks: a cell holds one round bump or dent, wholly inside it, or none.
+/// Mounds and pockmarks: a cell holds one round bump or dent, wholly inside it, or none.
 class round_marks {
   public:
     round_marks() = default;
@@ -11938,10 +11939,10 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/raster/detail/binning.hpp --------------------------------------------------------
 // Sorts triangles into tiles, in submission order.
 //
-// Triangles are binned in chunks, in parallel. Neighbours in a mesh are mostly neighbours on the screen, so a chunk
-// stores runs: consecutive triangles that touch the same tiles. Counting the runs of every chunk and tile gives each
-// its position, and a second parallel pass copies them there: an order-preserving counting sort, whose result does not
-// depend on which thread ran which chunk.
+// Triangles are binned in chunks, in parallel. Triangles adjacent in a mesh are mostly adjacent on the screen, so a
+// chunk stores runs: consecutive triangles that touch the same tiles. Counting the runs of every chunk and tile gives
+// each its position, and a second parallel pass copies them there: an order-preserving counting sort, whose result does
+// not depend on which thread ran which chunk.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -12118,7 +12119,7 @@ class tile_bins {
         for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk)
             for (std::size_t tile = 0; tile < tiles; ++tile)
                 next[tile] += std::exchange(of_chunk(chunk)[tile], next[tile]);
-        // A tile has at most as many runs as there are triangles; all tiles together may have more than 2^32.
+        // A tile's runs fit 32 bits; those of all tiles together may not.
         for (std::size_t tile = 0; tile < tiles; ++tile) first_[tile + 1] = first_[tile] + next[tile];
 
         runs_ = uninitialized_array<triangle_run>(first_.back(), memory_of(ex));
@@ -12759,7 +12760,7 @@ class screen_polygon {
             turns_[part.sign() + 1] = true;
         }
         area_sign_ = area.sign();
-        // The largest part on the side that the whole shows.
+        // The largest part that is oriented like the whole polygon.
         for (int i = 1; i + 1 < count_; ++i) {
             const int128 part = wide_area(at(0), at(i), at(i + 1)), size = area_sign_ < 0 ? -part : part;
             if ((size - largest_).sign() > 0) {
@@ -12861,9 +12862,9 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/raster/detail/small_setup.hpp ----------------------------------------------------
 // Setup of small triangles, of which a fine mesh is made: N at a time, one per lane, in 32 bits.
 //
-// A triangle is small if it extends less than 2^15 sub-pixels (8 pixels at 12 sub-pixel bits): then edge functions are
-// sums of two products of less than 2^30 each, and fit 32 bits. The integers are those of setup.hpp, and so are all
-// decisions.
+// A triangle is small if (width | height) < 2^15 - 1 sub-pixels; both are then below 2^15 (8 pixels at 12 sub-pixel
+// bits), so edge functions are sums of two products of less than 2^30 each, and fit 32 bits. The integers are those of
+// setup.hpp, and so are all decisions.
 //
 // Exact depths are the planes of setup.hpp, in double with a bound of the error. Quick depths are in float. Either way
 // a pixel gets the same depth whichever tile evaluates it.
@@ -12911,7 +12912,7 @@ struct drawn_area {
 inline constexpr std::int32_t small_limit = (1 << 15) - 1;
 
 /// Whether a triangle of this extent in sub-pixels is drawn as a small one. This is a property of the triangle alone:
-/// quick depths of small triangles are rounded differently, and must not depend on its neighbours.
+/// quick depths of small triangles are rounded differently, and must not depend on the triangles around it.
 inline bool is_small(std::int64_t width, std::int64_t height) {
     return (width | height) < small_limit;
 }
@@ -13759,8 +13760,8 @@ struct assembly_kernel {
         ++(out.stats.*screen.assemble(shader, triangle, tiles, out));
     }
 
-    /// @returns false if one of the triangles isn't small, unless all lie outside of the picture: in a close-up, most
-    ///          triangles of a surface do, and are large; and if one is a sliver
+    /// @returns false, counting nothing, if a triangle is off the grid, large or a sliver; true at once if all lie
+    ///          outside of the picture, large ones too: in a close-up, most triangles do
     template <int N>
     INSONIFY_INLINE bool assemble_small(std::size_t triangle, const drawn_area<N>& picture) const {
         using ints = lanes<std::int32_t, N>;
@@ -14289,7 +14290,8 @@ struct tile_kernel {
 
     /// Draws small triangles up to the next one that isn't. A tile's triangles lie far apart in the mesh, in rows of a
     /// few. While a group of them is drawn, the next group's vertices and the indices of the one after that are
-    /// prefetched: of every second and every fourth triangle, because neighbours share vertices and cache lines.
+    /// prefetched: of every second and every fourth triangle, because adjacent triangles share vertices and cache
+    /// lines.
     template <int N>
     INSONIFY_INLINE void draw_small_runs(run_reader& left, const drawn_area<N>& area) const {
         struct group {
@@ -14968,7 +14970,7 @@ struct lit_grid {
         const double dx = p.x - origin.x, dy = p.y - origin.y;
         return {x_of.x * dx + x_of.y * dy, y_of.x * dx + y_of.y * dy};
     }
-    /// The vertex of a cell with the lowest number.
+    /// Index of the lowest-numbered vertex of a cell.
     INSONIFY_INLINE std::ptrdiff_t corner(int x, int y) const {
         return first + (x + (along < 0 ? 1 : 0)) * along + (y + (across < 0 ? 1 : 0)) * across;
     }
@@ -15058,7 +15060,7 @@ struct horizon_bound {
     float lit_above;   ///< points of the column with a larger u are lit; infinity where u does not increase
 };
 
-/// Computes the bounds of adjacent strips, column by column: neighbours read mostly the same u.
+/// Computes the bounds of adjacent strips, column by column: adjacent strips read mostly the same u.
 struct horizon_kernel {
     static constexpr int max_strips = 64;
 
@@ -15114,7 +15116,8 @@ struct horizon_kernel {
         return copy;
     }
 
-    /// Masks of the cells between two columns that face the light, along which u increases, or where there is no cell.
+    /// Sets masks of the cells between two columns that face the light (u increases along the rays) or lie outside of
+    /// the grid.
     template <int N>
     INSONIFY_INLINE void find_facing(std::int32_t* into, const float* here, const float* ahead, float slope) const {
         using namespace insonify::detail;
@@ -15419,14 +15422,15 @@ class horizon_triangles {
         : horizon_(horizon), grid_(horizon.grid()) {
         eye_ = grid_.steps(glm::dvec2(eye));
         eye_u_ = eye_.x + grid_.drop * eye.z;
-        // The sine is u's slope along the light, times the light's own sine, over the length of the facet's normal.
+        // sin(grazing angle) = slope of u along the light x sin(elevation) / |normal of the facet|. `steepest` is an
+        // upper bound of that |normal|.
         const double relief = horizon.u().highest_z - horizon.u().lowest_z;
         const auto square_of = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
-        const double steps_a_metre = numeric::square_root((std::max)(square_of(grid_.x_of), square_of(grid_.y_of)));
-        const double steepest = 1 + 2 * relief * steps_a_metre;
+        const double steps_per_metre = numeric::square_root((std::max)(square_of(grid_.x_of), square_of(grid_.y_of)));
+        const double steepest = 1 + 2 * relief * steps_per_metre;
         const double sine = -travel.z / numeric::square_root(numeric::dot(travel, travel));
-        constexpr double grazed = 0x1p-20;  // a triangle closer to the light's direction is left to points
-        rise_ = horizon.margin() + grazed * steepest / sine;
+        constexpr double min_sine = 0x1p-20;  // triangles at a smaller grazing angle are left to the test of points
+        rise_ = horizon.margin() + min_sine * steepest / sine;
         // `lower` has its right angle at `apex` and leaves out the opposite corner. It is the first triangle of a cell
         // if the mesh's first triangle leaves out that corner too.
         const std::ptrdiff_t corner = grid_.corner(0, 0);
@@ -15453,7 +15457,7 @@ class horizon_triangles {
     /// @param lower, upper  corners of the rectangle, in the grid's steps
     void forget(const glm::dvec2& lower, const glm::dvec2& upper, int first_column, int last_column,
                 decision* into) const {
-        // These columns and, in each, these rows hold all points of such rays within the relief.
+        // Rays through the rectangle stay within these columns and, in each, these rows, at all heights of the relief.
         const double lowest_z = horizon_.u().lowest_z, highest_z = horizon_.u().highest_z;
         const double tolerance = 0x1p-8 + horizon_.margin();  // covers rounding
         const auto clamped = [](double at, int first, int last) {
@@ -15565,7 +15569,7 @@ class horizon_triangles {
         using floats = insonify::detail::lanes<float, N>;
         using ints = insonify::detail::lanes<std::int32_t, N>;
         floats dark_below, lit_above;  ///< bounds: dark below the first, lit above the second
-        floats eye;                    ///< what the plane has to pass below at the camera
+        floats eye;                    ///< u of the camera less the error bound; it is above planes of smaller u
         floats dy;                     ///< from the cell to the camera
         float dx, slope, enough;
 
@@ -15812,7 +15816,7 @@ class horizon_walk {
         const auto a = static_cast<double>(here[0]), b = static_cast<double>(ahead[0]),
                    c = static_cast<double>(here[1]), d = static_cast<double>(ahead[1]);
         crossing found;
-        // An edge is crossed a share s of the column from its beginning, a share t along it.
+        // An edge is crossed at fraction s of the column and at fraction t of the edge.
         const auto add = [&](double s, double first, double last, double t) {
             if (s > limit + lattice_error_) return;
             const double u = first + t * (last - first);
@@ -15853,7 +15857,7 @@ class horizon_walk {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/shadow/detail/grid_caster.hpp ----------------------------------------------------
-// A heightfield on a regular grid as a caster: what it blocks is known without a list of its triangles.
+// A heightfield on a regular grid as a caster, tested against its horizon instead of a list of triangles.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -15879,7 +15883,7 @@ class grid_caster {
     }
     /// Whether it blocks the light of one of its own points that faces the light.
     /// @param p       in the frame of the light
-    /// @param decide  decide(triangle): whether that blocks it, in doubles; not for the point's own
+    /// @param decide  decide(triangle): whether the triangle blocks p's light, in doubles; false for p's own triangle
     template <class Decide>
     bool blocks_own(const glm::dvec3& p, const Decide& decide) const {
         const glm::dvec3 at = transform_point(to_mesh_, p);
@@ -15963,7 +15967,7 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 /// A light's rays: parallel, or to a point.
 class light_rays {
   public:
-    /// @param reach  no coordinate of a point that is tested is larger, metres
+    /// @param reach  upper bound of the absolute coordinates of tested points, metres
     /// @throws invalid_input for a position that is not finite, and as light_frame does
     light_rays(const any_light& light, double reach) : reach_(reach), light_reach_(reach) {
         if (const auto* parallel = std::get_if<directional_light>(&light)) {
@@ -15979,7 +15983,7 @@ class light_rays {
         }
     }
 
-    /// From a point to the light: unit length if it is parallel, the whole way if it is near.
+    /// Vector from a point to the light: a unit vector for parallel light, the full offset for a point light.
     glm::dvec3 toward(const glm::dvec3& p) const { return is_near_ ? source_ - p : source_; }
 
     /// Whether the triangle (a, b, c) blocks the light of `from`.
@@ -16010,7 +16014,7 @@ class light_rays {
         const double sign = is_left ? 1 : -1;
         const double tolerance = 0x1p-40 * size(normal);
         if (!(sign * along > 0 && sign * behind > reach_ * tolerance)) return false;
-        // What the light itself touches does not block it.
+        // A triangle that contains the light does not block it.
         return !is_near_ || sign * (along - behind) > light_reach_ * tolerance;
     }
 
@@ -16058,7 +16062,7 @@ struct alignas(16) plane_vertex {
     float state;  ///< 0, or one of the following
 
     static constexpr float behind = 1;    ///< on the other side of a near light
-    static constexpr float too_near = 2;  ///< at a depth from 0 to min_depth: it has no direction
+    static constexpr float too_near = 2;  ///< at a depth from 0 to min_depth: not projected
     static constexpr float not_finite = 3;
 };
 
@@ -16252,7 +16256,7 @@ class plane_caster {
     plane_caster() = default;
 
     /// @param c          caster whose indices are valid
-    /// @param min_depth  points nearer to a point light have no direction
+    /// @param min_depth  vertices closer to a point light along the plane's axis are not projected, metres
     template <executor E>
     plane_caster(const caster& c, const light_plane& plane, const plane_tiles& tiles, double min_depth, isa level,
                  E& ex)
@@ -16357,7 +16361,7 @@ class receiver_cells {
               const glm::vec2& size) {
         const std::size_t count = from.size();
         int side = 1;
-        while (side < widest && static_cast<std::size_t>(side * side) * per_two_cells < count) side *= 2;
+        while (side < max_rows && static_cast<std::size_t>(side * side) * receivers_per_two_cells < count) side *= 2;
         columns_ = 2 * side;
         rows_ = side;
         lower_ = lower;
@@ -16406,7 +16410,7 @@ class receiver_cells {
     int columns() const { return columns_; }
     int rows() const { return rows_; }
     const glm::vec2& lower() const { return lower_; }
-    const glm::vec2& scale() const { return scale_; }  ///< cells a unit
+    const glm::vec2& scale() const { return scale_; }  ///< cells per unit
     const glm::vec2& cell() const { return cell_; }
     float lowest() const { return lowest_; }
     float highest() const { return highest_; }
@@ -16436,8 +16440,8 @@ class receiver_cells {
     dynamic_array<std::int32_t> caster;     ///< that blocks it, or open, or closed
 
   private:
-    static constexpr int widest = 128;               // rows
-    static constexpr std::size_t per_two_cells = 2;  // largest mean number of receivers, up to widest rows
+    static constexpr int max_rows = 128;
+    static constexpr std::size_t receivers_per_two_cells = 2;  // upper bound of the mean, until there are max_rows rows
     static constexpr std::size_t padding = 16;
 
     int column(float at) const { return clamped((at - lower_.x) * scale_.x, columns_); }
@@ -17074,7 +17078,7 @@ class exact_occlusion {
         const auto corner = [&](int j) { return transform_point(c.placement, glm::dvec3(c.mesh.positions[t[j]])); };
         return rays_.blocks(corner(0), corner(1), corner(2), p);
     }
-    /// Grids, and the plane across the rays of parallel light.
+    /// Builds the grids' horizons, and the plane of parallel light: the datum in its sheared frame.
     template <executor E>
     void add_parallel_plane(const light_frame& frame, const bounding_box& bounds, int side, E& ex) {
         for (std::size_t i = 0; i < casters_.size(); ++i)
@@ -17084,7 +17088,7 @@ class exact_occlusion {
         add_plane(plane, {lower, upper - lower, side, side}, 0x1p-44 * reach_of(bounds) * (1 + frame.cot_elevation()),
                   0, ex);
     }
-    /// The six faces of a cube around a point light.
+    /// Builds the planes of a point light: the six faces of a cube around it.
     template <executor E>
     void add_point_planes(const point_light& light, const bounding_box& bounds, int side, E& ex) {
         for (int i = 0; i < 6; ++i) {
@@ -18379,7 +18383,7 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/detail/rise.hpp -----------------------------------------------------------
-// The rise of sampled heights between the neighbours of a vertex.
+// Central differences of sampled heights, one-sided at edges and gaps.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -18387,9 +18391,9 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed::detail::inline INSONIFY_FLAGS {
 
-/// Twice the rise per cell, by central differences. Beside an edge or a missing neighbour the one-sided difference is
-/// doubled; it is 0 at a vertex without data.
-/// @param both  whether there are neighbours on both sides; at an edge, the vertex itself stands for the missing one
+/// Twice the height difference per cell. At an edge or beside a missing vertex, the one-sided difference doubled; 0 at
+/// a vertex without data.
+/// @param both  whether the grid has vertices on both sides; at an edge, `at` is passed for the missing one
 inline float rise(float before, float at, float after, bool both = true) {
     if (!numeric::is_finite(at)) return 0;
     const bool has_before = numeric::is_finite(before), has_after = numeric::is_finite(after);
@@ -22942,7 +22946,7 @@ class survey_reader {
         double value = 0;
         if (!insonify::detail::parse_number(digits, value))
             fail(insonify::detail::quoted(digits) + " is not a number, expected " + what);
-        return value;  // often infinite: the largest double in too few digits marks missing data
+        return value;  // may be infinite: files mark missing data by DBL_MAX in few digits, which overflows
     }
     double finite(const char* what) {
         const double value = number(what);
@@ -24778,7 +24782,7 @@ struct vertical_beam {
 };
 
 /// The two-way horizontal beam pattern: a Gaussian along the track whose width in metres grows with range. It blurs
-/// over neighbouring pings, and the insonified area grows with it.
+/// over adjacent pings, and the insonified area grows with it.
 struct horizontal_beam {
     float beamwidth = static_cast<float>(numeric::to_radians(0.3));  ///< between the -3 dB points of one way, radians
     /// Equivalent width along the track, metres: the integral of the pattern.
@@ -25025,8 +25029,8 @@ class sonar_equation {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/detail/equation_interface.hpp ------------------------------------
-// Virtual interface of sonar equations, so that tracing is compiled once for all lists of parts. Its functions are
-// called once per ray of a fan, or once per bin and altitude, never per echo.
+// Virtual interface of sonar equations, so that tracing is compiled once for all lists of parts. It is called per ray
+// of a fan, per bin and altitude, or per bin and ping offset within the beam, never per echo.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -25036,12 +25040,12 @@ namespace detail {
 
 struct equation_interface {
     virtual ~equation_interface() = default;
-    virtual bool has_ranges() const = 0;  ///< whether any part depends on range
-    virtual bool has_gain() const = 0;    ///< whether there is noise or a gain
-    virtual double over_direction(double across, double down) const = 0;
-    virtual double over_range(double range, double spacing) const = 0;
-    virtual double pulse_length() const = 0;            ///< metres; 0 without a pulse
-    virtual double beam_reach(double range) const = 0;  ///< metres; 0 without a horizontal beam
+    virtual bool has_ranges() const = 0;                                  ///< whether any part depends on range
+    virtual bool has_gain() const = 0;                                    ///< whether there is noise or a gain
+    virtual double over_direction(double across, double down) const = 0;  ///< factor on power along a unit vector
+    virtual double over_range(double range, double spacing) const = 0;    ///< factor on power; metres, metres per ping
+    virtual double pulse_length() const = 0;                              ///< metres; 0 without a pulse
+    virtual double beam_reach(double range) const = 0;                    ///< metres; 0 without a horizontal beam
     virtual double beam_pattern(double along, double range) const = 0;
     virtual double noise() const = 0;
     virtual double gain(const flat_echo& e) const = 0;
@@ -25506,12 +25510,12 @@ class bottom_tiles {
         return runs;
     }
 
-    /// Where a vertex of the cell has no height: vertices without a share don't count, so that the border of a gap has
+    /// Interpolates a cell that has a NaN vertex. Vertices of weight 0 are left out, so that the border of a gap has
     /// heights.
     INSONIFY_RARE static bottom_vertex beside_gap(bottom_vertex mean, const bottom_vertex* corner, float right,
                                                   float up) {
-        const auto between = [](float share, float from, float to) {
-            return (share < 1 ? (1 - share) * from : 0.0f) + (share > 0 ? share * to : 0.0f);
+        const auto between = [](float t, float from, float to) {
+            return (t < 1 ? (1 - t) * from : 0.0f) + (t > 0 ? t * to : 0.0f);
         };
         mean.height = between(up, between(right, corner[0].height, corner[1].height),
                               between(right, corner[stride].height, corner[stride + 1].height));
@@ -25588,9 +25592,9 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// A vertex of the profile.
 struct bottom_point {
-    double down;  ///< below the sonar
-    float slope, slope_along;
-    std::uint8_t type;
+    double down;               ///< metres below the sonar, in the plane of the fan; NaN without seabed
+    float slope, slope_along;  ///< rise per metre, across and along the track
+    std::uint8_t type;         ///< a seabed::type
 };
 
 /// Samples the profile of one ping after the other, reusing memory.
@@ -25708,7 +25712,7 @@ class bottom_profile {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/detail/label_tally.hpp -------------------------------------------
-// Sums of length or power by range bin and label, to find the label that has most of a bin.
+// Sums of length or power by range bin and label; the largest sum decides a bin's label.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -25767,7 +25771,8 @@ class label_tally {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/detail/echo_bins.hpp ---------------------------------------------
-// The range bins of one ping: power, lengths of lit and dark seabed, and the label that has most of each bin.
+// The range bins of one ping: power, lengths of lit and dark seabed, and the label with the
+// largest sum in each bin.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -26139,7 +26144,7 @@ struct cut_segment {
     glm::vec3 facet;  ///< normal of the triangle
 };
 
-/// A target in the world, ready to be cut.
+/// A target in world coordinates, with a tree that finds the triangles that a ping's plane cuts.
 class sliced_target {
   public:
     /// @param tree  of the shape's triangles
@@ -26158,6 +26163,7 @@ class sliced_target {
     double top() const { return centre_.z + rise_; }
     double foot() const { return radius_ > 0 ? centre_.z - rise_ : 1e30; }
 
+    /// Whether a ping's plane may meet the target on the side that it faces, within a slant range in metres.
     bool is_met_by(const ping_frame& p, double range) const {
         const glm::dvec3 centre = p(centre_);
         const double x = centre.x, u = centre.y;
@@ -26218,7 +26224,7 @@ class sliced_target {
     std::shared_ptr<const plane_tree> tree_;
     affine to_world_;
     glm::dvec3 centre_{0, 0, -1e30};
-    double radius_ = 0;  ///< of a ball around it
+    double radius_ = 0;  ///< of its bounding sphere, metres
     double rise_ = 0;    ///< from the centre to the top
 };
 
@@ -26533,9 +26539,9 @@ class ping_tracer {
         if (skips_foreground(relief_, axis_.first, p)) lowest = relief_.lowest, highest = relief_.highest;
         if (!(lowest <= highest))  // no seabed here: rays for the targets alone
             lowest = highest = (std::min)(foot, altitude - range_ / 16);
-        // Targets below the seabed may be in the window closer to nadir than the seabed is.
+        // Through a gap, targets lower than the seabed are received in the window from rays closer to nadir.
         if (axis_.first > 0 && foot < lowest && profile_.has_gaps()) lowest = foot;
-        // In a pitched fan depths are longer; level ones bound the heights above.
+        // Depths along a pitched fan are longer. Vertical depths are lower bounds, as above_highest and above_all need.
         const double stretch = 1 / p.cosine_pitch();
         const fan_shape shape =
             fan_shape::around((altitude - lowest) * stretch, altitude - highest, altitude - (std::max)(top_, highest));
@@ -26619,7 +26625,7 @@ class ping_tracer {
     /// The bottom between two vertices of the profile.
     struct facet {
         const bottom_point &p, &q;
-        double x, dx, ddown;  ///< across the track: where it begins, its width; its fall
+        double x, dx, ddown;  ///< metres: start across the track, width, increase in depth
         double begin, end;    ///< positions on the range axis, if labelled
 
         /// A point at a fraction of the way from p to q: across and down.
@@ -26652,7 +26658,8 @@ class ping_tracer {
             }
             // The part above the horizon. Labels divide it halfway between rays, as the rays' power does.
             const double below = px * horizon_down - p.down * horizon_x;
-            double from = below > 0 ? 0 : below / (below - above);  // above 0: the first facet of a window
+            // below > 0 only at the first facet of a profile that does not start at nadir.
+            double from = below > 0 ? 0 : below / (below - above);
             if (Labelled && from > 0) label(part, 0, from, caster_below_horizon(part.at(from)));
             double last_met = from;
             const std::size_t first = k;
@@ -26677,7 +26684,7 @@ class ping_tracer {
         }
     }
 
-    /// @param f  where the ray meets the facet
+    /// @param f  fraction of the way along the facet at which the ray meets it
     INSONIFY_INLINE void add_bottom_echo(const ping_frame& ping, std::size_t k, double range, const facet& part,
                                          float f) {
         // Removes targets that are buried or behind a rise.
@@ -26696,6 +26703,7 @@ class ping_tracer {
         const float power = static_cast<float>(1 - covered) * power_of(k, range, grazing_sine) *
                             materials_[static_cast<std::size_t>(f < 0.5f ? p.type : q.type)].reflectivity;
         extent echo{at - half, at + half};
+        // Range changes by less than a bin per radian: the ray is close to the facet's normal.
         if (2 * half < static_cast<float>(ray.width)) echo = perpendicular_echo(k, at, part);
         distribute(bins_.size(), echo.low, echo.high,
                    [&](std::size_t bin, float fraction, float) { bins_[bin].bottom += power * fraction; });
@@ -26773,7 +26781,7 @@ class ping_tracer {
     seabed::height_range relief_;
     range_bins window_;
     double cell_;
-    double range_, farthest_ = 0;  ///< of the last bin: on the range axis, and slant
+    double range_, farthest_ = 0;  ///< end of the last bin: on the range axis, and as a slant range; metres
     range_axis axis_;
     double step_;
     bottom_profile profile_;
@@ -26838,7 +26846,7 @@ class bin_factors {
     double altitude_ = 0;
 };
 
-/// A recording under construction.
+/// Records all pings of a track into a frame.
 template <class Labels, class Law>
 class recorder {
   public:
@@ -26927,8 +26935,8 @@ class recorder {
         out_.stats.seabed_samples = bottom.sampled();
     }
 
-    /// Factors on the power of a ping's bins by range, if any part has some. Bins of time have the same slant ranges at
-    /// any altitude.
+    /// Range factors of the equation for a ping's bins; empty if no part depends on range. In slant range they are the
+    /// same at any altitude.
     std::span<const float> losses_at(const ping& p, bin_factors& losses) const {
         if (!equation_.has_ranges()) return {};
         const double altitude = window_.counts_time ? 0 : p.position.z;

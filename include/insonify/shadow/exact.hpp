@@ -170,7 +170,7 @@ class exact_occlusion {
         const auto corner = [&](int j) { return transform_point(c.placement, glm::dvec3(c.mesh.positions[t[j]])); };
         return rays_.blocks(corner(0), corner(1), corner(2), p);
     }
-    /// Grids, and the plane across the rays of parallel light.
+    /// Builds the grids' horizons, and the plane of parallel light: the datum in its sheared frame.
     template <executor E>
     void add_parallel_plane(const light_frame& frame, const bounding_box& bounds, int side, E& ex) {
         for (std::size_t i = 0; i < casters_.size(); ++i)
@@ -180,7 +180,7 @@ class exact_occlusion {
         add_plane(plane, {lower, upper - lower, side, side}, 0x1p-44 * reach_of(bounds) * (1 + frame.cot_elevation()),
                   0, ex);
     }
-    /// The six faces of a cube around a point light.
+    /// Builds the planes of a point light: the six faces of a cube around it.
     template <executor E>
     void add_point_planes(const point_light& light, const bounding_box& bounds, int side, E& ex) {
         for (int i = 0; i < 6; ++i) {

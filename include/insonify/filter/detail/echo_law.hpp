@@ -50,8 +50,8 @@ struct echo_factor {
     }
 };
 
-/// How intensities are drawn: `by_looks`, exponential for one look and else gamma. It depends on the filter's type and
-/// not on its maps of parameters, so that a map of equal numbers gives the noise of that number.
+/// How intensities are drawn; `by_looks` is exponential for one look, else gamma. The choice never depends on whether a
+/// parameter is a map, so that a map of equal values gives the same noise as that value.
 enum class echo_draw { exponential, gamma, by_looks, rice };
 
 /// Statistics of an intensity: the three numbers of a speckle_law, by pixel.

@@ -1,4 +1,4 @@
-// Correlated gamma-distributed numbers of mean one: the gamma law's quantiles at correlated normal numbers, tabulated.
+// Correlated gamma variates of mean 1: quantiles of the gamma distribution at correlated normal variates, tabulated.
 //
 // Based on: Mircea Grigoriu. Applied Non-Gaussian Processes. 1995 (translation processes: a memoryless function of a
 // Gaussian field has any distribution, and a correlation that follows from the field's).
@@ -33,7 +33,7 @@ class gamma_texture {
         return values_[knot] + t * (values_[knot + 1] - values_[knot]);
     }
 
-    /// Correlation of two numbers whose normal numbers have the correlation r, 0 to 1.
+    /// Correlation of two gamma variates whose normal variates have the correlation r, 0 to 1.
     double correlation(double r) const {
         double sum = 0;
         for (std::size_t k = terms; k-- > 0;) sum = (sum + powers_[k]) * r;
@@ -48,7 +48,8 @@ class gamma_texture {
 
     /// Integrates the density of y = ln t, exp(shape (1 + y - e^y)), and reads it off at normal probabilities.
     void tabulate(double shape) {
-        const double spread = numeric::square_root(160 / shape) + 60 / shape;  // where the density is e^-40 of its peak
+        // Beyond the interval the density is below e^-40 of its peak, or t below e^-60.
+        const double spread = numeric::square_root(160 / shape) + 60 / shape;
         const double low = -(std::min)(spread, 60.0), high = numeric::log(1 + spread), dy = (high - low) / intervals;
         const auto density = [&](double y) { return numeric::exp(shape * (1 + y - numeric::exp(y))); };
         dynamic_array<double> below{density(low) / shape};  // the tail to the left is exponential

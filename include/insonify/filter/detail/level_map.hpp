@@ -57,27 +57,27 @@ class level_map {
     std::shared_ptr<const dynamic_array<Pixel>> values_;  // passes are copied; the table isn't
 };
 
-/// The map of histeq: each source level goes to the first level of `wanted` whose cumulative share reaches the
-/// source's, less half of the level's own share except at the first and the last level.
+/// Maps `source` to `reference` as MATLAB's histeq does: a level goes to the first reference level whose cumulative
+/// fraction reaches that of the source, which counts half of the level itself except at the first and the last level.
 template <class Pixel>
-level_map<Pixel> map_levels(std::span<const std::uint64_t> source, std::span<const std::uint64_t> wanted) {
+level_map<Pixel> map_levels(std::span<const std::uint64_t> source, std::span<const std::uint64_t> reference) {
     const auto total = [](std::span<const std::uint64_t> counts) {
         return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
     };
     const auto source_total = static_cast<double>((std::max)(total(source), std::uint64_t{1}));
-    const auto wanted_total = static_cast<double>(total(wanted));
+    const auto reference_total = static_cast<double>(total(reference));
     constexpr double tolerance = 0x1p-26;
     const std::size_t levels = source.size();
     dynamic_array<Pixel> values(levels);
-    std::uint64_t below = 0, reached = wanted[0];
+    std::uint64_t below = 0, reached = reference[0];
     std::size_t target = 0;
     for (std::size_t level = 0; level < levels; ++level) {
         below += source[level];
         const bool inner = level > 0 && level + 1 < levels;
-        const double share = static_cast<double>(below) - (inner ? 0.5 * static_cast<double>(source[level]) : 0);
-        while (static_cast<double>(reached) / wanted_total < share / source_total - tolerance)
-            reached += wanted[++target];
-        const double value = static_cast<double>(target) / static_cast<double>(wanted.size() - 1);
+        const double cumulative = static_cast<double>(below) - (inner ? 0.5 * static_cast<double>(source[level]) : 0);
+        while (static_cast<double>(reached) / reference_total < cumulative / source_total - tolerance)
+            reached += reference[++target];
+        const double value = static_cast<double>(target) / static_cast<double>(reference.size() - 1);
         if constexpr (std::is_same_v<Pixel, float>)
             values[level] = static_cast<float>(value);
         else

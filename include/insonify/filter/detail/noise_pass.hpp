@@ -34,7 +34,7 @@ enum class noise_stream : std::uint32_t {
     texture
 };
 
-/// Key of a filter's draws, besides the pixel.
+/// Key of a filter's random draws; the pixel's position is in the counter.
 struct noise_key {
     philox_key key;
     std::uint32_t frame;

@@ -25,7 +25,7 @@ struct pass_by_reference {
     void row(const From* from, To* to, int count, int x, int y) const { stage->row(from, to, count, x, y); }
 };
 
-/// The pass before the first stage.
+/// The identity: the pass before the first stage.
 struct untouched {
     template <class Pixel>
     INSONIFY_INLINE Pixel operator()(const Pixel& pixel, int, int) const {

@@ -217,8 +217,8 @@ struct assembly_kernel {
         ++(out.stats.*screen.assemble(shader, triangle, tiles, out));
     }
 
-    /// @returns false if one of the triangles isn't small, unless all lie outside of the picture: in a close-up, most
-    ///          triangles of a surface do, and are large; and if one is a sliver
+    /// @returns false, counting nothing, if a triangle is off the grid, large or a sliver; true at once if all lie
+    ///          outside of the picture, large ones too: in a close-up, most triangles do
     template <int N>
     INSONIFY_INLINE bool assemble_small(std::size_t triangle, const drawn_area<N>& picture) const {
         using ints = lanes<std::int32_t, N>;

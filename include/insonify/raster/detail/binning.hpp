@@ -1,9 +1,9 @@
 // Sorts triangles into tiles, in submission order.
 //
-// Triangles are binned in chunks, in parallel. Neighbours in a mesh are mostly neighbours on the screen, so a chunk
-// stores runs: consecutive triangles that touch the same tiles. Counting the runs of every chunk and tile gives each
-// its position, and a second parallel pass copies them there: an order-preserving counting sort, whose result does not
-// depend on which thread ran which chunk.
+// Triangles are binned in chunks, in parallel. Triangles adjacent in a mesh are mostly adjacent on the screen, so a
+// chunk stores runs: consecutive triangles that touch the same tiles. Counting the runs of every chunk and tile gives
+// each its position, and a second parallel pass copies them there: an order-preserving counting sort, whose result does
+// not depend on which thread ran which chunk.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
@@ -193,7 +193,7 @@ class tile_bins {
         for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk)
             for (std::size_t tile = 0; tile < tiles; ++tile)
                 next[tile] += std::exchange(of_chunk(chunk)[tile], next[tile]);
-        // A tile has at most as many runs as there are triangles; all tiles together may have more than 2^32.
+        // A tile's runs fit 32 bits; those of all tiles together may not.
         for (std::size_t tile = 0; tile < tiles; ++tile) first_[tile + 1] = first_[tile] + next[tile];
 
         runs_ = uninitialized_array<triangle_run>(first_.back(), memory_of(ex));

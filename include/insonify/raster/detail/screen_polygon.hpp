@@ -34,7 +34,7 @@ class screen_polygon {
             turns_[part.sign() + 1] = true;
         }
         area_sign_ = area.sign();
-        // The largest part on the side that the whole shows.
+        // The largest part that is oriented like the whole polygon.
         for (int i = 1; i + 1 < count_; ++i) {
             const int128 part = wide_area(at(0), at(i), at(i + 1)), size = area_sign_ < 0 ? -part : part;
             if ((size - largest_).sign() > 0) {

@@ -77,7 +77,8 @@ struct tile_kernel {
 
     /// Draws small triangles up to the next one that isn't. A tile's triangles lie far apart in the mesh, in rows of a
     /// few. While a group of them is drawn, the next group's vertices and the indices of the one after that are
-    /// prefetched: of every second and every fourth triangle, because neighbours share vertices and cache lines.
+    /// prefetched: of every second and every fourth triangle, because adjacent triangles share vertices and cache
+    /// lines.
     template <int N>
     INSONIFY_INLINE void draw_small_runs(run_reader& left, const drawn_area<N>& area) const {
         struct group {

@@ -1,4 +1,4 @@
-// The rise of sampled heights between the neighbours of a vertex.
+// Central differences of sampled heights, one-sided at edges and gaps.
 #pragma once
 
 #include <insonify/core/numeric.hpp>
@@ -9,9 +9,9 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed::detail::inline INSONIFY_FLAGS {
 
-/// Twice the rise per cell, by central differences. Beside an edge or a missing neighbour the one-sided difference is
-/// doubled; it is 0 at a vertex without data.
-/// @param both  whether there are neighbours on both sides; at an edge, the vertex itself stands for the missing one
+/// Twice the height difference per cell. At an edge or beside a missing vertex, the one-sided difference doubled; 0 at
+/// a vertex without data.
+/// @param both  whether the grid has vertices on both sides; at an edge, `at` is passed for the missing one
 inline float rise(float before, float at, float after, bool both = true) {
     if (!numeric::is_finite(at)) return 0;
     const bool has_before = numeric::is_finite(before), has_after = numeric::is_finite(after);

@@ -28,7 +28,7 @@ INSONIFY_INLINE void visit_columns(const lattice& l, const stretch& part, std::i
     }
 }
 
-/// Mounds and pock marks: a cell holds one round bump or dent, wholly inside it, or none.
+/// Mounds and pockmarks: a cell holds one round bump or dent, wholly inside it, or none.
 class round_marks {
   public:
     round_marks() = default;

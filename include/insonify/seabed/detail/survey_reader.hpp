@@ -76,7 +76,7 @@ class survey_reader {
         double value = 0;
         if (!insonify::detail::parse_number(digits, value))
             fail(insonify::detail::quoted(digits) + " is not a number, expected " + what);
-        return value;  // often infinite: the largest double in too few digits marks missing data
+        return value;  // may be infinite: files mark missing data by DBL_MAX in few digits, which overflows
     }
     double finite(const char* what) {
         const double value = number(what);

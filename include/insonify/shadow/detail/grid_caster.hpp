@@ -1,4 +1,4 @@
-// A heightfield on a regular grid as a caster: what it blocks is known without a list of its triangles.
+// A heightfield on a regular grid as a caster, tested against its horizon instead of a list of triangles.
 #pragma once
 
 #include <insonify/shadow/detail/horizon_triangles.hpp>
@@ -28,7 +28,7 @@ class grid_caster {
     }
     /// Whether it blocks the light of one of its own points that faces the light.
     /// @param p       in the frame of the light
-    /// @param decide  decide(triangle): whether that blocks it, in doubles; not for the point's own
+    /// @param decide  decide(triangle): whether the triangle blocks p's light, in doubles; false for p's own triangle
     template <class Decide>
     bool blocks_own(const glm::dvec3& p, const Decide& decide) const {
         const glm::dvec3 at = transform_point(to_mesh_, p);

@@ -35,7 +35,7 @@ struct horizon_bound {
     float lit_above;   ///< points of the column with a larger u are lit; infinity where u does not increase
 };
 
-/// Computes the bounds of adjacent strips, column by column: neighbours read mostly the same u.
+/// Computes the bounds of adjacent strips, column by column: adjacent strips read mostly the same u.
 struct horizon_kernel {
     static constexpr int max_strips = 64;
 
@@ -91,7 +91,8 @@ struct horizon_kernel {
         return copy;
     }
 
-    /// Masks of the cells between two columns that face the light, along which u increases, or where there is no cell.
+    /// Sets masks of the cells between two columns that face the light (u increases along the rays) or lie outside of
+    /// the grid.
     template <int N>
     INSONIFY_INLINE void find_facing(std::int32_t* into, const float* here, const float* ahead, float slope) const {
         using namespace insonify::detail;

@@ -60,14 +60,15 @@ class horizon_triangles {
         : horizon_(horizon), grid_(horizon.grid()) {
         eye_ = grid_.steps(glm::dvec2(eye));
         eye_u_ = eye_.x + grid_.drop * eye.z;
-        // The sine is u's slope along the light, times the light's own sine, over the length of the facet's normal.
+        // sin(grazing angle) = slope of u along the light x sin(elevation) / |normal of the facet|. `steepest` is an
+        // upper bound of that |normal|.
         const double relief = horizon.u().highest_z - horizon.u().lowest_z;
         const auto square_of = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
-        const double steps_a_metre = numeric::square_root((std::max)(square_of(grid_.x_of), square_of(grid_.y_of)));
-        const double steepest = 1 + 2 * relief * steps_a_metre;
+        const double steps_per_metre = numeric::square_root((std::max)(square_of(grid_.x_of), square_of(grid_.y_of)));
+        const double steepest = 1 + 2 * relief * steps_per_metre;
         const double sine = -travel.z / numeric::square_root(numeric::dot(travel, travel));
-        constexpr double grazed = 0x1p-20;  // a triangle closer to the light's direction is left to points
-        rise_ = horizon.margin() + grazed * steepest / sine;
+        constexpr double min_sine = 0x1p-20;  // triangles at a smaller grazing angle are left to the test of points
+        rise_ = horizon.margin() + min_sine * steepest / sine;
         // `lower` has its right angle at `apex` and leaves out the opposite corner. It is the first triangle of a cell
         // if the mesh's first triangle leaves out that corner too.
         const std::ptrdiff_t corner = grid_.corner(0, 0);
@@ -94,7 +95,7 @@ class horizon_triangles {
     /// @param lower, upper  corners of the rectangle, in the grid's steps
     void forget(const glm::dvec2& lower, const glm::dvec2& upper, int first_column, int last_column,
                 decision* into) const {
-        // These columns and, in each, these rows hold all points of such rays within the relief.
+        // Rays through the rectangle stay within these columns and, in each, these rows, at all heights of the relief.
         const double lowest_z = horizon_.u().lowest_z, highest_z = horizon_.u().highest_z;
         const double tolerance = 0x1p-8 + horizon_.margin();  // covers rounding
         const auto clamped = [](double at, int first, int last) {
@@ -206,7 +207,7 @@ class horizon_triangles {
         using floats = insonify::detail::lanes<float, N>;
         using ints = insonify::detail::lanes<std::int32_t, N>;
         floats dark_below, lit_above;  ///< bounds: dark below the first, lit above the second
-        floats eye;                    ///< what the plane has to pass below at the camera
+        floats eye;                    ///< u of the camera less the error bound; it is above planes of smaller u
         floats dy;                     ///< from the cell to the camera
         float dx, slope, enough;
 

@@ -212,7 +212,7 @@ class horizon_walk {
         const auto a = static_cast<double>(here[0]), b = static_cast<double>(ahead[0]),
                    c = static_cast<double>(here[1]), d = static_cast<double>(ahead[1]);
         crossing found;
-        // An edge is crossed a share s of the column from its beginning, a share t along it.
+        // An edge is crossed at fraction s of the column and at fraction t of the edge.
         const auto add = [&](double s, double first, double last, double t) {
             if (s > limit + lattice_error_) return;
             const double u = first + t * (last - first);

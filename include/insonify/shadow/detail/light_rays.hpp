@@ -22,7 +22,7 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 /// A light's rays: parallel, or to a point.
 class light_rays {
   public:
-    /// @param reach  no coordinate of a point that is tested is larger, metres
+    /// @param reach  upper bound of the absolute coordinates of tested points, metres
     /// @throws invalid_input for a position that is not finite, and as light_frame does
     light_rays(const any_light& light, double reach) : reach_(reach), light_reach_(reach) {
         if (const auto* parallel = std::get_if<directional_light>(&light)) {
@@ -38,7 +38,7 @@ class light_rays {
         }
     }
 
-    /// From a point to the light: unit length if it is parallel, the whole way if it is near.
+    /// Vector from a point to the light: a unit vector for parallel light, the full offset for a point light.
     glm::dvec3 toward(const glm::dvec3& p) const { return is_near_ ? source_ - p : source_; }
 
     /// Whether the triangle (a, b, c) blocks the light of `from`.
@@ -69,7 +69,7 @@ class light_rays {
         const double sign = is_left ? 1 : -1;
         const double tolerance = 0x1p-40 * size(normal);
         if (!(sign * along > 0 && sign * behind > reach_ * tolerance)) return false;
-        // What the light itself touches does not block it.
+        // A triangle that contains the light does not block it.
         return !is_near_ || sign * (along - behind) > light_reach_ * tolerance;
     }
 

@@ -78,7 +78,7 @@ struct lit_grid {
         const double dx = p.x - origin.x, dy = p.y - origin.y;
         return {x_of.x * dx + x_of.y * dy, y_of.x * dx + y_of.y * dy};
     }
-    /// The vertex of a cell with the lowest number.
+    /// Index of the lowest-numbered vertex of a cell.
     INSONIFY_INLINE std::ptrdiff_t corner(int x, int y) const {
         return first + (x + (along < 0 ? 1 : 0)) * along + (y + (across < 0 ? 1 : 0)) * across;
     }

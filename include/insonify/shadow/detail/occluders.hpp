@@ -44,7 +44,7 @@ struct alignas(16) plane_vertex {
     float state;  ///< 0, or one of the following
 
     static constexpr float behind = 1;    ///< on the other side of a near light
-    static constexpr float too_near = 2;  ///< at a depth from 0 to min_depth: it has no direction
+    static constexpr float too_near = 2;  ///< at a depth from 0 to min_depth: not projected
     static constexpr float not_finite = 3;
 };
 
@@ -238,7 +238,7 @@ class plane_caster {
     plane_caster() = default;
 
     /// @param c          caster whose indices are valid
-    /// @param min_depth  points nearer to a point light have no direction
+    /// @param min_depth  vertices closer to a point light along the plane's axis are not projected, metres
     template <executor E>
     plane_caster(const caster& c, const light_plane& plane, const plane_tiles& tiles, double min_depth, isa level,
                  E& ex)

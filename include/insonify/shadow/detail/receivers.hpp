@@ -62,7 +62,7 @@ class receiver_cells {
               const glm::vec2& size) {
         const std::size_t count = from.size();
         int side = 1;
-        while (side < widest && static_cast<std::size_t>(side * side) * per_two_cells < count) side *= 2;
+        while (side < max_rows && static_cast<std::size_t>(side * side) * receivers_per_two_cells < count) side *= 2;
         columns_ = 2 * side;
         rows_ = side;
         lower_ = lower;
@@ -111,7 +111,7 @@ class receiver_cells {
     int columns() const { return columns_; }
     int rows() const { return rows_; }
     const glm::vec2& lower() const { return lower_; }
-    const glm::vec2& scale() const { return scale_; }  ///< cells a unit
+    const glm::vec2& scale() const { return scale_; }  ///< cells per unit
     const glm::vec2& cell() const { return cell_; }
     float lowest() const { return lowest_; }
     float highest() const { return highest_; }
@@ -141,8 +141,8 @@ class receiver_cells {
     dynamic_array<std::int32_t> caster;     ///< that blocks it, or open, or closed
 
   private:
-    static constexpr int widest = 128;               // rows
-    static constexpr std::size_t per_two_cells = 2;  // largest mean number of receivers, up to widest rows
+    static constexpr int max_rows = 128;
+    static constexpr std::size_t receivers_per_two_cells = 2;  // upper bound of the mean, until there are max_rows rows
     static constexpr std::size_t padding = 16;
 
     int column(float at) const { return clamped((at - lower_.x) * scale_.x, columns_); }

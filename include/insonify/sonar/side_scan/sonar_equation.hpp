@@ -66,7 +66,7 @@ struct vertical_beam {
 };
 
 /// The two-way horizontal beam pattern: a Gaussian along the track whose width in metres grows with range. It blurs
-/// over neighbouring pings, and the insonified area grows with it.
+/// over adjacent pings, and the insonified area grows with it.
 struct horizontal_beam {
     float beamwidth = static_cast<float>(numeric::to_radians(0.3));  ///< between the -3 dB points of one way, radians
     /// Equivalent width along the track, metres: the integral of the pattern.

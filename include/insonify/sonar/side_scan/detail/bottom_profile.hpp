@@ -17,9 +17,9 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// A vertex of the profile.
 struct bottom_point {
-    double down;  ///< below the sonar
-    float slope, slope_along;
-    std::uint8_t type;
+    double down;               ///< metres below the sonar, in the plane of the fan; NaN without seabed
+    float slope, slope_along;  ///< rise per metre, across and along the track
+    std::uint8_t type;         ///< a seabed::type
 };
 
 /// Samples the profile of one ping after the other, reusing memory.

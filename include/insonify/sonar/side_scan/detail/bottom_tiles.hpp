@@ -196,12 +196,12 @@ class bottom_tiles {
         return runs;
     }
 
-    /// Where a vertex of the cell has no height: vertices without a share don't count, so that the border of a gap has
+    /// Interpolates a cell that has a NaN vertex. Vertices of weight 0 are left out, so that the border of a gap has
     /// heights.
     INSONIFY_RARE static bottom_vertex beside_gap(bottom_vertex mean, const bottom_vertex* corner, float right,
                                                   float up) {
-        const auto between = [](float share, float from, float to) {
-            return (share < 1 ? (1 - share) * from : 0.0f) + (share > 0 ? share * to : 0.0f);
+        const auto between = [](float t, float from, float to) {
+            return (t < 1 ? (1 - t) * from : 0.0f) + (t > 0 ? t * to : 0.0f);
         };
         mean.height = between(up, between(right, corner[0].height, corner[1].height),
                               between(right, corner[stride].height, corner[stride + 1].height));

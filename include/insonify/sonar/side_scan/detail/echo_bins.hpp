@@ -1,4 +1,5 @@
-// The range bins of one ping: power, lengths of lit and dark seabed, and the label that has most of each bin.
+// The range bins of one ping: power, lengths of lit and dark seabed, and the label with the
+// largest sum in each bin.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>

@@ -1,5 +1,5 @@
-// Virtual interface of sonar equations, so that tracing is compiled once for all lists of parts. Its functions are
-// called once per ray of a fan, or once per bin and altitude, never per echo.
+// Virtual interface of sonar equations, so that tracing is compiled once for all lists of parts. It is called per ray
+// of a fan, per bin and altitude, or per bin and ping offset within the beam, never per echo.
 #pragma once
 
 #include <insonify/sonar/side_scan/sonar_equation.hpp>
@@ -12,12 +12,12 @@ namespace detail {
 
 struct equation_interface {
     virtual ~equation_interface() = default;
-    virtual bool has_ranges() const = 0;  ///< whether any part depends on range
-    virtual bool has_gain() const = 0;    ///< whether there is noise or a gain
-    virtual double over_direction(double across, double down) const = 0;
-    virtual double over_range(double range, double spacing) const = 0;
-    virtual double pulse_length() const = 0;            ///< metres; 0 without a pulse
-    virtual double beam_reach(double range) const = 0;  ///< metres; 0 without a horizontal beam
+    virtual bool has_ranges() const = 0;                                  ///< whether any part depends on range
+    virtual bool has_gain() const = 0;                                    ///< whether there is noise or a gain
+    virtual double over_direction(double across, double down) const = 0;  ///< factor on power along a unit vector
+    virtual double over_range(double range, double spacing) const = 0;    ///< factor on power; metres, metres per ping
+    virtual double pulse_length() const = 0;                              ///< metres; 0 without a pulse
+    virtual double beam_reach(double range) const = 0;                    ///< metres; 0 without a horizontal beam
     virtual double beam_pattern(double along, double range) const = 0;
     virtual double noise() const = 0;
     virtual double gain(const flat_echo& e) const = 0;

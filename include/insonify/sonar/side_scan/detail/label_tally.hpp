@@ -1,4 +1,4 @@
-// Sums of length or power by range bin and label, to find the label that has most of a bin.
+// Sums of length or power by range bin and label; the largest sum decides a bin's label.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>

@@ -58,9 +58,9 @@ class ping_tracer {
         if (skips_foreground(relief_, axis_.first, p)) lowest = relief_.lowest, highest = relief_.highest;
         if (!(lowest <= highest))  // no seabed here: rays for the targets alone
             lowest = highest = (std::min)(foot, altitude - range_ / 16);
-        // Targets below the seabed may be in the window closer to nadir than the seabed is.
+        // Through a gap, targets lower than the seabed are received in the window from rays closer to nadir.
         if (axis_.first > 0 && foot < lowest && profile_.has_gaps()) lowest = foot;
-        // In a pitched fan depths are longer; level ones bound the heights above.
+        // Depths along a pitched fan are longer. Vertical depths are lower bounds, as above_highest and above_all need.
         const double stretch = 1 / p.cosine_pitch();
         const fan_shape shape =
             fan_shape::around((altitude - lowest) * stretch, altitude - highest, altitude - (std::max)(top_, highest));
@@ -144,7 +144,7 @@ class ping_tracer {
     /// The bottom between two vertices of the profile.
     struct facet {
         const bottom_point &p, &q;
-        double x, dx, ddown;  ///< across the track: where it begins, its width; its fall
+        double x, dx, ddown;  ///< metres: start across the track, width, increase in depth
         double begin, end;    ///< positions on the range axis, if labelled
 
         /// A point at a fraction of the way from p to q: across and down.
@@ -177,7 +177,8 @@ class ping_tracer {
             }
             // The part above the horizon. Labels divide it halfway between rays, as the rays' power does.
             const double below = px * horizon_down - p.down * horizon_x;
-            double from = below > 0 ? 0 : below / (below - above);  // above 0: the first facet of a window
+            // below > 0 only at the first facet of a profile that does not start at nadir.
+            double from = below > 0 ? 0 : below / (below - above);
             if (Labelled && from > 0) label(part, 0, from, caster_below_horizon(part.at(from)));
             double last_met = from;
             const std::size_t first = k;
@@ -202,7 +203,7 @@ class ping_tracer {
         }
     }
 
-    /// @param f  where the ray meets the facet
+    /// @param f  fraction of the way along the facet at which the ray meets it
     INSONIFY_INLINE void add_bottom_echo(const ping_frame& ping, std::size_t k, double range, const facet& part,
                                          float f) {
         // Removes targets that are buried or behind a rise.
@@ -221,6 +222,7 @@ class ping_tracer {
         const float power = static_cast<float>(1 - covered) * power_of(k, range, grazing_sine) *
                             materials_[static_cast<std::size_t>(f < 0.5f ? p.type : q.type)].reflectivity;
         extent echo{at - half, at + half};
+        // Range changes by less than a bin per radian: the ray is close to the facet's normal.
         if (2 * half < static_cast<float>(ray.width)) echo = perpendicular_echo(k, at, part);
         distribute(bins_.size(), echo.low, echo.high,
                    [&](std::size_t bin, float fraction, float) { bins_[bin].bottom += power * fraction; });
@@ -298,7 +300,7 @@ class ping_tracer {
     seabed::height_range relief_;
     range_bins window_;
     double cell_;
-    double range_, farthest_ = 0;  ///< of the last bin: on the range axis, and slant
+    double range_, farthest_ = 0;  ///< end of the last bin: on the range axis, and as a slant range; metres
     range_axis axis_;
     double step_;
     bottom_profile profile_;

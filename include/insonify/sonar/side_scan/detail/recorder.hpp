@@ -50,7 +50,7 @@ class bin_factors {
     double altitude_ = 0;
 };
 
-/// A recording under construction.
+/// Records all pings of a track into a frame.
 template <class Labels, class Law>
 class recorder {
   public:
@@ -139,8 +139,8 @@ class recorder {
         out_.stats.seabed_samples = bottom.sampled();
     }
 
-    /// Factors on the power of a ping's bins by range, if any part has some. Bins of time have the same slant ranges at
-    /// any altitude.
+    /// Range factors of the equation for a ping's bins; empty if no part depends on range. In slant range they are the
+    /// same at any altitude.
     std::span<const float> losses_at(const ping& p, bin_factors& losses) const {
         if (!equation_.has_ranges()) return {};
         const double altitude = window_.counts_time ? 0 : p.position.z;

@@ -25,7 +25,7 @@ struct cut_segment {
     glm::vec3 facet;  ///< normal of the triangle
 };
 
-/// A target in the world, ready to be cut.
+/// A target in world coordinates, with a tree that finds the triangles that a ping's plane cuts.
 class sliced_target {
   public:
     /// @param tree  of the shape's triangles
@@ -44,6 +44,7 @@ class sliced_target {
     double top() const { return centre_.z + rise_; }
     double foot() const { return radius_ > 0 ? centre_.z - rise_ : 1e30; }
 
+    /// Whether a ping's plane may meet the target on the side that it faces, within a slant range in metres.
     bool is_met_by(const ping_frame& p, double range) const {
         const glm::dvec3 centre = p(centre_);
         const double x = centre.x, u = centre.y;
@@ -104,7 +105,7 @@ class sliced_target {
     std::shared_ptr<const plane_tree> tree_;
     affine to_world_;
     glm::dvec3 centre_{0, 0, -1e30};
-    double radius_ = 0;  ///< of a ball around it
+    double radius_ = 0;  ///< of its bounding sphere, metres
     double rise_ = 0;    ///< from the centre to the top
 };
 
