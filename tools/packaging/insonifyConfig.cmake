@@ -5,5 +5,7 @@ if(TARGET insonify::glm)
   include(${CMAKE_CURRENT_LIST_DIR}/compiled.cmake)
 else()
   set(insonify_FOUND FALSE)
-  set(insonify_NOT_FOUND_MESSAGE "the GLM headers are missing: install libglm-dev (Debian, Ubuntu), glm-devel (Fedora) or glm (Homebrew), or pass -DINSONIFY_GLM_INCLUDE_DIR=<folder that holds glm/>")
+  string(CONCAT insonify_NOT_FOUND_MESSAGE
+         "the GLM headers are missing: install libglm-dev (Debian, Ubuntu), glm-devel (Fedora) or glm (Homebrew), "
+         "or pass -DINSONIFY_GLM_INCLUDE_DIR=<folder that holds glm/>")
 endif()
