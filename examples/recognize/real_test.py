@@ -55,7 +55,7 @@ class Real(unittest.TestCase):
     def rows(self, report):
         return {cells[1]: [float(cell.split()[0]) for cell in (cells[2], cells[3], cells[5])]
                 for line in report.splitlines() if (cells := [cell.strip() for cell in line.split("|")])[0] == ""
-                and len(cells) > 5 and re.match(r"\d", cells[1])}
+                and len(cells) > 5 and re.match(r"\d|generated", cells[1])}
 
     def test_similar_generated_images_train_as_well_as_real_ones(self):
         report = self.report("a", "--generated", self.folder / "set")

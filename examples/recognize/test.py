@@ -55,7 +55,7 @@ class Recognition(unittest.TestCase):
         for reason, *options in (
             ("--sizes: --own has 7 of class cylinder, 79 are needed", "--own", self.folder / "own", "--recipes", "none",
              "--sizes", 300),
-            ("is the test set", "--own", self.folder / "test"),
+            ("is the test set", "--own", self.folder / "test", "--recipes", "slant_range"),
             ("needs --references", "--recipes", "overhead"),
         ):
             self.assertIn(reason, run(RECOGNIZE, "--out", self.folder / "c", "--test", self.folder / "test", *options, expect=1))
