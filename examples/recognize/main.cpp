@@ -68,12 +68,12 @@ class_counts counts_of(std::size_t images) {
     return c;
 }
 
-/// The most of each class that sets of these sizes have.
+/// Numbers of each class in a set that holds those of all sizes.
 class_counts counts_of_all(const std::vector<std::size_t>& sizes) {
-    class_counts most{};
+    class_counts all{};
     for (const std::size_t images : sizes)
-        for (std::size_t k = 0; k < 3; ++k) most[k] = (std::max)(most[k], counts_of(images)[k]);
-    return most;
+        for (std::size_t k = 0; k < 3; ++k) all[k] = (std::max)(all[k], counts_of(images)[k]);
+    return all;
 }
 
 /// A given number of rows of each class, beginning at `from`, cyclically.
@@ -96,12 +96,16 @@ class_counts counted(const features& f) {
 /// The experiment: trains on each set at each size with each seed, and tests on the simulator's test set.
 class experiment {
   public:
-    explicit experiment(const options& o)
+    /// Reads all sets and options, so that what is wrong is refused before anything is trained.
+    experiment(const options& o, std::vector<recipe> recipes)
         : options_(o),
           pool_(o.threads),
+          recipes_(std::move(recipes)),
           needed_(counts_of_all(o.sizes)),
           test_(features_of(read_set(o.test))),
           simulators_(o.own.empty() ? features{} : features_of(read_set(o.own))) {
+        const auto references = o.references.empty() ? std::vector<std::string>{} : class_folders(o.references);
+        for (const recipe& r : recipes_) renderers_.emplace_back(r, references, pool_);
         if (o.own.empty()) return;
         const class_counts there = counted(simulators_);
         for (std::size_t k = 0; k < 3; ++k)
@@ -110,10 +114,17 @@ class experiment {
                                         ", " + std::to_string(needed_[k]) + " are needed");
     }
 
+    void run() {
+        for (std::size_t i = 0; i < recipes_.size(); ++i) learn_from(recipes_[i], renderers_[i]);
+        if (!options_.own.empty()) learn_from_simulator();
+    }
+
+    const std::vector<outcome>& outcomes() const { return outcomes_; }
+    class_counts tested() const { return counted(test_); }
+
+  private:
     /// Trains on a recipe's pictures. A set of another seed tests it on pictures of the same recipe.
-    void learn_from(const recipe& r) {
-        const set_renderer renderer(
-            r, options_.references.empty() ? std::vector<std::string>{} : class_folders(options_.references), pool_);
+    void learn_from(const recipe& r, const set_renderer& renderer) {
         const class_counts tested{options_.synthetic[0], options_.synthetic[1], options_.synthetic[2]};
         const features own = features_of(renderer.draw_set(tested, options_.seeds + 1));
         std::vector<features> sets;
@@ -137,10 +148,6 @@ class experiment {
             nullptr);
     }
 
-    const std::vector<outcome>& outcomes() const { return outcomes_; }
-    class_counts tested() const { return counted(test_); }
-
-  private:
     template <class SetOf>
     void learn(const std::string& name, const std::string& description, const SetOf& set_of, const features* own) {
         for (const std::size_t images : options_.sizes) {
@@ -159,7 +166,9 @@ class experiment {
 
     options options_;
     in::thread_pool pool_;
-    class_counts needed_;  ///< for the training set of any of the sizes
+    std::vector<recipe> recipes_;
+    std::vector<set_renderer> renderers_;  ///< one for each recipe
+    class_counts needed_;                  ///< for the training set of any of the sizes
     features test_, simulators_;
     std::vector<outcome> outcomes_;
 };
@@ -175,12 +184,8 @@ std::vector<recipe> chosen(const options& o) {
     return all;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) try {
-    const options o = parse(argc, argv);
-    cv::setNumThreads(1);
-    const std::vector<recipe> recipes = chosen(o);
+/// @throws invalid_input for a set that is missing, and for one that is the test set, too
+void check_sets(const options& o, const std::vector<recipe>& recipes) {
     if (recipes.empty() && o.own.empty()) throw in::invalid_input("--recipes none: needs --try or --own");
     for (const recipe& r : recipes)
         if (r.needs_references && o.references.empty())
@@ -188,14 +193,18 @@ int main(int argc, char** argv) try {
     for (const auto& [name, folder] : {std::pair{"--own", o.own}, {"--references", o.references}})
         if (std::error_code missing; !folder.empty() && std::filesystem::equivalent(o.test, folder, missing))
             throw in::invalid_input(std::string(name) + " '" + folder + "' is the test set");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    const options o = parse(argc, argv);
+    cv::setNumThreads(1);
+    const std::vector<recipe> recipes = chosen(o);
+    check_sets(o, recipes);
     std::filesystem::create_directories(o.out);
-    for (const recipe& r : recipes)
-        for (std::size_t k = 0; k < 3; ++k)
-            static_cast<void>(
-                options_of(r, k, o.references.empty() ? std::vector<std::string>{} : class_folders(o.references)));
-    experiment e(o);
-    for (const recipe& r : recipes) e.learn_from(r);
-    if (!o.own.empty()) e.learn_from_simulator();
+    experiment e(o, recipes);
+    e.run();
 
     const std::string report = markdown(e.outcomes(), e.tested());
     in::write_file(o.out + "/report.md", report);

@@ -942,8 +942,8 @@ class image_view {
         detail::require(y >= 0 && y <= height_, "y", y, "0 to the height of the view");
         detail::require(width >= 0 && width <= width_ - x, "width", width, "0 to the view's width less x");
         detail::require(height >= 0 && height <= height_ - y, "height", height, "0 to the view's height less y");
-        const bool is_empty =
-            width == 0 || height == 0;  // its corner may lie past the last pixel, where no pointer may be formed
+        // The corner of an empty part may lie past the last pixel, where no pointer may be formed.
+        const bool is_empty = width == 0 || height == 0;
         return {is_empty ? data_ : data_ + y * stride_ + x, width, height, stride_};
     }
 
@@ -1276,7 +1276,8 @@ inline double tan(double radians) {
     return sine / cosine;
 }
 
-/// x to the power y for x >= 0, relative error below (|y log x| + 2) * 3e-16; pow(0, y > 0) = 0, pow(x, 0) = 1.
+/// x to the power y for x >= 0, relative error below (|y log x| + 2) * 3e-16; pow(0, y > 0) = 0,
+/// pow(0, y < 0) = infinity, pow(x, 0) = 1.
 constexpr double pow(double x, double y) {
     if (y == 0) return 1;
     if (x == 0) return y > 0 ? 0.0 : y < 0 ? std::numeric_limits<double>::infinity() : y;
@@ -19316,7 +19317,7 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/accuracy/seabed_probe.hpp --------------------------------------------------------
 // Measures the errors of pictures of a seabed on a few small ones.
 //
-// The ground truth is a picture of the finest grid, with exact shadows in place of maps.
+// The ground truth is a picture of a grid of `probe.finest` cells per pixel, with exact shadows in place of maps.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -19479,9 +19480,9 @@ INSONIFY_ARITHMETIC_END
 // Chooses the cheapest settings whose errors stay within a budget.
 //
 // The tolerance for a curved target's facets has a closed form in the positions of camera and light. Errors that depend
-// on the seabed are measured: a few small pictures are compared with ones of the finest grid, from coarse to fine, and
-// the first ones within the budget decide. That takes as long as a few large pictures, once for all pictures of a rig
-// and a kind of seabed.
+// on the seabed are measured: a few small pictures are compared with ones of a finer grid, from coarse to fine, and the
+// first ones within the budget decide. That takes as long as a few large pictures, once for all pictures of a rig and a
+// kind of seabed.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -25771,8 +25772,7 @@ class label_tally {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/detail/echo_bins.hpp ---------------------------------------------
-// The range bins of one ping: power, lengths of lit and dark seabed, and the label with the
-// largest sum in each bin.
+// The range bins of one ping: power, lengths of lit and dark seabed, and the label with the largest sum in each bin.
 
 INSONIFY_ARITHMETIC_BEGIN
 

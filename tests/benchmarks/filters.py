@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """The filters of benchmarks/filters.cpp by OpenCV, numpy and scikit-image: filters.py [threads] [pixels].
 
-Prints the best of 15, of tasks beyond half a second the best of 3, in milliseconds. Names and skips packages that are not installed.
+Prints the best of 15 in milliseconds, of 3 for tasks beyond half a second. Names and skips packages that are not
+installed.
 """
 
 import importlib

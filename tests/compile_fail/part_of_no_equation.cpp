@@ -4,18 +4,17 @@
 
 namespace in = insonify;
 
-struct steady_noise {
-#if defined(INSONIFY_COMPILE_FAIL)
-    double noise_level() const {
-        return 1e-6;
-    }
-#else
-    double noise() const {
-        return 1e-6;
-    }
-#endif
+struct own_noise {
+    double noise() const { return 1e-6; }
+};
+struct misnamed_noise {
+    double noise_level() const { return 1e-6; }
 };
 
 double noise_of_equation() {
-    return in::sonar_equation{steady_noise{}, in::level_gain{}}.noise();
+#if defined(INSONIFY_COMPILE_FAIL)
+    return in::sonar_equation{misnamed_noise{}, in::level_gain{}}.noise();
+#else
+    return in::sonar_equation{own_noise{}, in::level_gain{}}.noise();
+#endif
 }

@@ -1,6 +1,6 @@
 // Measures the errors of pictures of a seabed on a few small ones.
 //
-// The ground truth is a picture of the finest grid, with exact shadows in place of maps.
+// The ground truth is a picture of a grid of `probe.finest` cells per pixel, with exact shadows in place of maps.
 #pragma once
 
 #include <insonify/accuracy/metrics.hpp>

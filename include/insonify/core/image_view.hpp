@@ -63,8 +63,8 @@ class image_view {
         detail::require(y >= 0 && y <= height_, "y", y, "0 to the height of the view");
         detail::require(width >= 0 && width <= width_ - x, "width", width, "0 to the view's width less x");
         detail::require(height >= 0 && height <= height_ - y, "height", height, "0 to the view's height less y");
-        const bool is_empty =
-            width == 0 || height == 0;  // its corner may lie past the last pixel, where no pointer may be formed
+        // The corner of an empty part may lie past the last pixel, where no pointer may be formed.
+        const bool is_empty = width == 0 || height == 0;
         return {is_empty ? data_ : data_ + y * stride_ + x, width, height, stride_};
     }
 

@@ -183,7 +183,8 @@ inline double tan(double radians) {
     return sine / cosine;
 }
 
-/// x to the power y for x >= 0, relative error below (|y log x| + 2) * 3e-16; pow(0, y > 0) = 0, pow(x, 0) = 1.
+/// x to the power y for x >= 0, relative error below (|y log x| + 2) * 3e-16; pow(0, y > 0) = 0,
+/// pow(0, y < 0) = infinity, pow(x, 0) = 1.
 constexpr double pow(double x, double y) {
     if (y == 0) return 1;
     if (x == 0) return y > 0 ? 0.0 : y < 0 ? std::numeric_limits<double>::infinity() : y;

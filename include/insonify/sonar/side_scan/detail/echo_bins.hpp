@@ -1,5 +1,4 @@
-// The range bins of one ping: power, lengths of lit and dark seabed, and the label with the
-// largest sum in each bin.
+// The range bins of one ping: power, lengths of lit and dark seabed, and the label with the largest sum in each bin.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
