@@ -19,7 +19,7 @@ int main() {
     const in::camera_view view(scanner, {glm::dmat3(1), glm::dvec3(field.origin, 0)});
     in::image<float> depth(512, 512);
     const auto stats = in::draw(bottom, [&](const in::vertex& v) { return view(v.position); }, in::depth_target{depth},
-                                {.keep = in::keep_depth::larger, .load = in::depth_load::clear});
+                                {.compare = in::depth_compare::greater, .load = in::depth_load::clear});
 
     // Depth is z_near / distance along the camera's axis, and empty_depth where no surface covers the pixel.
     float nearest = 0;

@@ -90,8 +90,8 @@ int main(int argc, char** argv) try {
 
     sb::roughness finer = sb::roughness_of(in::sediment::medium_sand);
     finer.longest = (std::max)(static_cast<float>(survey.spacing), finer.shortest);
-    finer.rms =
-        sb::facts_of(in::sediment::medium_sand).rms() * static_cast<float>(in::numeric::pow(survey.spacing, 0.625));
+    finer.rms = sb::parameters_of(in::sediment::medium_sand).rms() *
+                static_cast<float>(in::numeric::pow(survey.spacing, 0.625));
     in::scene scene;
     scene.seabed = sb::detailed{.field = survey, .surface = finer};
 

@@ -20,10 +20,10 @@ int main() {
     for (int i = 0; i < 32; ++i) dive.emplace_back(-4 + 0.25 * i, 0.1, 1.5 - 0.04 * i);
     const auto found = light.test(dive);
     for (std::size_t i = 0; i < dive.size(); ++i) {
-        const char* const what = found.shadow[i] == in::labels::is_lit      ? "lit"
+        const char* const what = found.shadow[i] == in::labels::no_shadow   ? "lit"
                                  : found.shadow[i] == in::labels::by_seabed ? "dark, behind the seabed"
                                                                             : "dark, behind the cube";
         std::printf("%6.2f m, %5.2f m up: %s\n", dive[i].x, dive[i].z, what);
     }
-    return found.shadow[0] == in::labels::is_lit && found.shadow[18] == 1 ? 0 : 1;  // before the cube, and in it
+    return found.shadow[0] == in::labels::no_shadow && found.shadow[18] == 1 ? 0 : 1;  // before the cube, and in it
 }

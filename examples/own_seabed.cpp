@@ -11,15 +11,15 @@ namespace in = insonify;
 
 /// Long sand waves without end.
 struct sand_waves {
-    static constexpr in::seabed::type_properties kind{in::seabed::own_type(0), "sand waves", 0.55f, {.texture = 12}};
+    static constexpr in::seabed::type_properties kind{in::seabed::user_type(0), "sand waves", 0.55f, {.texture = 12}};
     double height = 0.3, length = 6;  ///< metres
 
     /// Heights along a row; waves too short for the grid fade out.
     void row(const in::seabed::scanline& line, std::span<float> heights) const {
-        const double amplitude = 0.5 * height * static_cast<double>(in::seabed::carried(length, line.grid_spacing));
+        const float gain = in::seabed::band_limit_gain(length, line.grid_spacing);
         for (std::size_t i = 0; i < heights.size(); ++i) {
             const double turns = (line.x(i) + 0.3 * in::numeric::sin_cos(0.4 * line.y).sine) / length;
-            heights[i] = static_cast<float>(amplitude * in::numeric::sin_cos_turns(turns).sine);
+            heights[i] = gain * static_cast<float>(0.5 * height * in::numeric::sin_cos_turns(turns).sine);
         }
     }
     in::seabed::height_range range() const { return {-0.5 * height, 0.5 * height}; }

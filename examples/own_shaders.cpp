@@ -13,7 +13,7 @@ struct varyings {  // interpolated: floats and aggregates of them
 
 struct vertex_shader {
     in::camera_view view;
-    in::placed_vertex<varyings> operator()(const in::vertex& v) const {
+    in::vertex_output<varyings> operator()(const in::vertex& v) const {
         return {view(v.position), {v.normal, {4 * (v.position.x + v.position.y), 8 * v.position.z}}};
     }
 };
@@ -35,6 +35,6 @@ int main() {
     in::image<float> depth(480, 320);
     in::draw(ball, vertex_shader{in::camera_view({.eye = {0, -4, 1.5}, .field_of_view = 40_deg, .aspect = 1.5f})},
              fragment_shader{}, in::framebuffer<in::rgb8>{color, depth, true, {5, 5, 5}},
-             {.keep = in::keep_depth::larger, .load = in::depth_load::clear});
+             {.compare = in::depth_compare::greater, .load = in::depth_load::clear});
     in::write_png("ball.png", color);
 }

@@ -331,7 +331,7 @@ tally compare(const in::image<judged_pixel>& truth, const Dark& is_dark) {
     return t;
 }
 inline tally compare(const in::image<judged_pixel>& truth, const in::labels& labels) {
-    return compare(truth, [&](int x, int y) { return labels.shadow(x, y) != in::labels::is_lit; });
+    return compare(truth, [&](int x, int y) { return labels.shadow(x, y) != in::labels::no_shadow; });
 }
 
 }  // namespace shadow_oracle

@@ -18,8 +18,10 @@ inline CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
         [low, high](std::string& text) -> std::string {
             std::uint64_t value = 0;
             const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-            if (text.size() > 1 && text[0] == '0') return "'" + text + "' begins with 0, as octal numbers do";
-            if (status == std::errc{} && end == text.data() + text.size() && value >= low && value <= high) return "";
+            const bool is_whole = status == std::errc{} && end == text.data() + text.size();
+            if (is_whole && text.size() > 1 && text[0] == '0')
+                return "'" + text + "' begins with 0, as octal numbers do";
+            if (is_whole && value >= low && value <= high) return "";
             return "'" + text + "' is not a whole number from " + std::to_string(low) + " to " + std::to_string(high);
         },
         "", "whole number");

@@ -38,7 +38,8 @@ inline in::image<std::uint8_t> shadows_of(const in::labels& l) {
     in::image<std::uint8_t> mask(l.shadow.width(), l.shadow.height());
     for (std::size_t i = 0; i < mask.size(); ++i)
         mask.pixels()[i] =
-            l.shadow.pixels()[i] != in::labels::is_lit && l.instance.pixels()[i] == in::labels::no_instance ? 255 : 0;
+            l.shadow.pixels()[i] != in::labels::no_shadow && l.instance.pixels()[i] == in::labels::no_instance ? 255
+                                                                                                               : 0;
     return mask;
 }
 

@@ -199,8 +199,8 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
     if (Axis == in::across_track::ground_range) water.surface = 0;
     recording.image = in::apply(std::move(recording.image), p.gain | water, ex);
     in::seabed_speckle speckle{.elsewhere = {.looks = p.looks},
-                               .along_track = static_cast<float>(p.grain_along),
-                               .across_track = static_cast<float>(p.grain_across),
+                               .along_track = static_cast<float>(p.speckle_length_along),
+                               .across_track = static_cast<float>(p.speckle_length_across),
                                .seed = p.noise_seed};
     for (in::speckle_law& l : speckle.bottom) l = {.looks = p.looks, .texture = static_cast<float>(p.texture)};
     recording = in::with_speckle(std::move(recording), speckle, ex);

@@ -62,8 +62,8 @@ struct sonar_plan {
     in::ping_banding banding;
     in::water_column water;
     int looks;
-    double grain_across, grain_along;  ///< pixels
-    double texture;                    ///< shape of the K-distribution; 0: none
+    double speckle_length_across, speckle_length_along;  ///< pixels
+    double texture;                                      ///< shape of the K-distribution; 0: none
     std::uint32_t noise_seed;
     std::string display;
     double white, exponent, dynamic_range, black_share, white_share;
@@ -217,7 +217,7 @@ inline void sample_bottom(sampler& s, sonar_plan& p, double pixel, const view_of
     p.tone.direction = static_cast<float>(s.uniform("streak_direction_rad", 0, in::numeric::pi));
     p.tone.patches = static_cast<float>(s.uniform_or_0("tone_patches_db", 0.78, -4, 4));
     p.tone.patch_size = static_cast<float>(s.derived("patch_size_m", pixel * s.logarithmic("patch_px", 15, 70)));
-    p.tone.patch_share = static_cast<float>(s.uniform("patch_share", 0.1, 0.6));
+    p.tone.patch_coverage = static_cast<float>(s.uniform("patch_coverage", 0.1, 0.6));
     p.tone.seed = s.word("tone_seed");
 
     p.clutter = s.whole("clutter", 1, 9);
@@ -268,12 +268,12 @@ inline void sample_look(const options& o, sampler& s, sonar_plan& p, double pixe
     p.water.seed = p.banding.seed;
 
     p.looks = s.derived_whole("looks", static_cast<int>(s.logarithmic("looks_drawn", 1.2, 17)));
-    p.grain_across =
-        (std::min)((std::max)(p.sonar.grain_across() / pixel, s.uniform_or_0("grain_across_px", 0.92, 0.3, 1.1)), 16.0);
-    p.grain_along = (std::min)(
-        (std::max)(p.sonar.grain_along(slant) / pixel, s.uniform_or_0("grain_along_px", 0.55, 0.3, 2)), 16.0);
-    p.grain_across = s.derived("correlation_across_px", p.grain_across);
-    p.grain_along = s.derived("correlation_along_px", p.grain_along);
+    p.speckle_length_across = (std::min)(
+        (std::max)(p.sonar.speckle_length_across() / pixel, s.uniform_or_0("grain_across_px", 0.92, 0.3, 1.1)), 16.0);
+    p.speckle_length_along = (std::min)(
+        (std::max)(p.sonar.speckle_length_along(slant) / pixel, s.uniform_or_0("grain_along_px", 0.55, 0.3, 2)), 16.0);
+    p.speckle_length_across = s.derived("correlation_across_px", p.speckle_length_across);
+    p.speckle_length_along = s.derived("correlation_along_px", p.speckle_length_along);
     p.texture = s.uniform_or_0("texture", 0.75, 4, 15);
     if (p.texture > 0 && p.texture < 0.01) s.refuse("texture", "0, or a number from 0.01");
     p.noise_seed = s.word("noise_seed");

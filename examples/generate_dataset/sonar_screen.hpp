@@ -64,8 +64,8 @@ inline in::image<float> on_screen(in::image<float> intensity, const sonar_plan& 
     if (p.display == "automatic")
         return show(in::automatic_display{
             .scale = p.exponent < 0.4 ? in::display_scale::decibels : in::display_scale::amplitude,
-            .black = static_cast<float>(p.black_share),
-            .white = static_cast<float>(p.white_share)});
+            .black_fraction = static_cast<float>(p.black_share),
+            .white_fraction = static_cast<float>(p.white_share)});
     return show(in::display{.white = white, .exponent = p.display == "power" ? 1.0f : static_cast<float>(p.exponent)});
 }
 

@@ -81,7 +81,7 @@ void paint_labels(in::image<in::rgb8>& picture, const in::labels& labels, int ov
         const bool is_target = labels.instance.pixels()[i] != in::labels::no_instance;
         const std::uint16_t shadow = labels.shadow.pixels()[i];
         if (is_target) tint(i, {255, 64, 64});
-        if (overlay == shadows && !is_target && shadow != in::labels::is_lit) tint(i, {64, 128, 255});
+        if (overlay == shadows && !is_target && shadow != in::labels::no_shadow) tint(i, {64, 128, 255});
         if (overlay == bottom_types && !is_target && labels.seabed.pixels()[i] == 1) tint(i, {64, 220, 120});
     }
 }

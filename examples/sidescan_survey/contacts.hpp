@@ -41,7 +41,7 @@ class contact_list {
                     c.area += 1;
                     c.first_bin = (std::min)(c.first_bin, bin);
                     c.last_bin = (std::max)(c.last_bin, bin);
-                } else if (shadow != in::labels::is_lit && shadow != in::labels::by_seabed) {
+                } else if (shadow != in::labels::no_shadow && shadow != in::labels::by_seabed) {
                     contact& c = seen(shadow, side, at, in_sight);
                     c.shadow_area += 1;
                     c.shadow_end = (std::max)(c.shadow_end, bin);

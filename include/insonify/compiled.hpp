@@ -100,14 +100,16 @@ INSONIFY_SEABEDS(INSONIFY_SEABED)
 
 namespace detail::inline INSONIFY_ONCE {
 
-#define INSONIFY_PICTURE(Shadow, Labels)                                                                          \
-    frame<Labels> paint(const scene& s, const overhead& rig, built_in<Shadow, Labels> options, executor_ref ex) { \
-        return detail::paint<>(s, rig, options, ex);                                                              \
+#define INSONIFY_PICTURE(Shadow, Labels)                                                              \
+    frame<Labels> render_frame(const scene& s, const overhead& rig, built_in<Shadow, Labels> options, \
+                               executor_ref ex) {                                                     \
+        return detail::render_frame<>(s, rig, options, ex);                                           \
     }
 INSONIFY_PICTURES(INSONIFY_PICTURE)
 #undef INSONIFY_PICTURE
-visibility see(const scene& s, const overhead& rig, built_in<shadow::none, labels> options, executor_ref ex) {
-    return detail::see<>(s, rig, options, ex);
+visibility render_visibility(const scene& s, const overhead& rig, built_in<shadow::none, labels> options,
+                             executor_ref ex) {
+    return detail::render_visibility<>(s, rig, options, ex);
 }
 
 #define INSONIFY_RECORDING(Labels, Law)                                                               \

@@ -263,7 +263,7 @@ inline namespace INSONIFY_ABI {}
 }  // namespace insonify
 
 // ------------ insonify/core/detail/block_pool.hpp -------------------------------------------------------
-// Pool of large memory blocks: what one frame frees serves the next, without the cost of fresh pages.
+// Pool of large memory blocks, reused from frame to frame so that pages are not mapped and cleared again.
 //
 // The operating system maps and clears every page that it hands out, which takes up to half the time of a frame of
 // 2048 x 2048 pixels. A pool keeps freed blocks instead. It belongs to a `context`; the arrays that allocate from it
@@ -315,7 +315,8 @@ class block_pool {
         kept_ += size;
     }
 
-    /// Frees the kept blocks and resets the peak, so that blocks in use are freed, not kept.
+    /// Frees the kept blocks and resets the peak, so that blocks in use are freed, not kept, unless more are allocated
+    /// before.
     INSONIFY_TAGGED void release() noexcept {
         const guard lock(busy_);
         while (count_ > 0) free_oldest();
@@ -523,7 +524,7 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// Throws the error. Without exceptions it calls INSONIFY_THROW, or else writes the message to stderr and terminates.
 template <class Error>
-[[noreturn]] void raise(Error error) {
+[[noreturn]] void throw_error(Error error) {
 #if defined(__cpp_exceptions)
     throw error;
 #elif defined(INSONIFY_THROW)
@@ -566,7 +567,7 @@ std::string element_name(std::string_view list, Number i) {
 [[noreturn]] inline void refuse_text(std::string_view argument, std::string_view value, std::string_view expected) {
     std::string message(argument);
     message.append(" is ").append(value).append(", expected ").append(expected);
-    raise(invalid_input(message));
+    throw_error(invalid_input(message));
 }
 template <arithmetic Number>
 [[noreturn]] void refuse(std::string_view argument, Number value, std::string_view expected) {
@@ -3205,7 +3206,7 @@ struct noise_run {
     std::uint32_t channel;  // 0 to 2
 };
 
-constexpr float clip_to_unit(float value) {
+constexpr float saturate(float value) {
     return value < 0 ? 0.0f : value > 1 ? 1.0f : value;
 }
 
@@ -3753,7 +3754,7 @@ struct pixel_list {
     std::uint16_t places[run_length + 8];
 };
 
-/// Appends a place to a list if wanted, without a branch: the outcome is random.
+/// Appends a position to a list if wanted, without a branch, which would be mispredicted: the outcome is random.
 INSONIFY_INLINE void add_if(bool wanted, int place, std::uint16_t* places, int& count) {
     places[count] = static_cast<std::uint16_t>(place);
     count += wanted ? 1 : 0;
@@ -4274,8 +4275,8 @@ inline int count_nan(const float* values, int count) {
     return found;
 }
 
-/// Counts codes. For 8 bits, four tables take turns, so that equal adjacent pixels do not wait for one another's
-/// increment.
+/// Counts codes. Those of 8 bits are counted in four tables in rotation, since incrementing one counter twice in a row
+/// stalls on store-to-load forwarding.
 template <pixel_code Code>
 class code_counter {
   public:
@@ -5163,7 +5164,7 @@ struct pass_by_reference {
 };
 
 /// The identity: the pass before the first stage.
-struct untouched {
+struct identity_pass {
     template <class Pixel>
     INSONIFY_INLINE Pixel operator()(const Pixel& pixel, int, int) const {
         return pixel;
@@ -5272,7 +5273,7 @@ auto materialize(Source&& source, const Pass& pass, E& ex, pixel_origin origin) 
     using from = typename std::remove_cvref_t<Source>::value_type;
     using to = pass_result<Pass, from>;
     constexpr bool owned = std::is_same_v<Source, image<from>>;
-    if constexpr (std::is_same_v<Pass, untouched>) {
+    if constexpr (std::is_same_v<Pass, identity_pass>) {
         return image<from>(std::forward<Source>(source));
     } else if constexpr (owned && std::is_same_v<from, to>) {
         run_pass(read_only(source), source.view(), pass, ex, origin);
@@ -5300,18 +5301,18 @@ template <class Source, class Pass, class E, class Sink, class F, class... Rest>
 auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& run, const F& stage,
                 const Rest&... rest) {
     using pixel = pass_result<Pass, typename std::remove_cvref_t<Source>::value_type>;
-    constexpr bool clean = std::is_same_v<Pass, untouched>;
+    constexpr bool is_identity = std::is_same_v<Pass, identity_pass>;
     if constexpr (image_filter<F, pixel>) {
         // Only an image is passed on: a callable of any type would also accept a view and write to the caller's
         // pixels.
-        if constexpr (clean && std::conjunction_v<std::is_same<std::remove_cvref_t<Source>, image<pixel>>,
-                                                  std::is_invocable<const F&, Source>>) {
-            return run_stages(stage(std::forward<Source>(source)), untouched{}, run, rest...);
+        if constexpr (is_identity && std::conjunction_v<std::is_same<std::remove_cvref_t<Source>, image<pixel>>,
+                                                        std::is_invocable<const F&, Source>>) {
+            return run_stages(stage(std::forward<Source>(source)), identity_pass{}, run, rest...);
         } else {
-            return run_stages(stage(materialize(std::forward<Source>(source), pass, run.ex, run.origin)), untouched{},
-                              run, rest...);
+            return run_stages(stage(materialize(std::forward<Source>(source), pass, run.ex, run.origin)),
+                              identity_pass{}, run, rest...);
         }
-    } else if constexpr (clean) {
+    } else if constexpr (is_identity) {
         return run_stages(std::forward<Source>(source), make_pass(stage, read_only(source), run.ex), run, rest...);
     } else if constexpr (measured_filter<F, pixel>) {
         image<pixel> seen = materialize(std::forward<Source>(source), pass, run.ex, run.origin);
@@ -5365,7 +5366,7 @@ struct filter_chain {
     INSONIFY_TAGGED auto run(Source&& source, const Context& context) const {
         return std::apply(
             [&](const Stages&... each) {
-                return detail::run_stages(std::forward<Source>(source), detail::untouched{}, context, each...);
+                return detail::run_stages(std::forward<Source>(source), detail::identity_pass{}, context, each...);
             },
             stages);
     }
@@ -5413,7 +5414,7 @@ auto apply_to(Source&& source, const F& f, E& ex, pixel_origin origin, Sink sink
     if constexpr (is_chain<F>)
         return f.run(std::forward<Source>(source), run);
     else
-        return run_stages(std::forward<Source>(source), untouched{}, run, f);
+        return run_stages(std::forward<Source>(source), identity_pass{}, run, f);
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -5598,10 +5599,10 @@ where_filter<F> masked(image_view<const std::uint8_t> mask, const kept_mask& kep
 /// Each stage of a chain.
 template <class... Stages>
 filter_chain<where_filter<Stages>...> masked(image_view<const std::uint8_t> mask, const kept_mask& kept,
-                                             const filter_chain<Stages...>& chain) {
+                                             filter_chain<Stages...> chain) {
     return std::apply(
-        [&](const Stages&... stages) {
-            return filter_chain<where_filter<Stages>...>{{{mask, stages, kept}...}};
+        [&](Stages&... stages) {
+            return filter_chain<where_filter<Stages>...>{{{mask, std::move(stages), kept}...}};
         },
         chain.stages);
 }
@@ -5619,14 +5620,18 @@ inline namespace INSONIFY_FLAGS {
 /// @param mask    of the image's size; its pixels must exist until the filter has run
 /// @param filter  of pixels or measured, not of images, with results of the same pixel type
 template <class Filter>
-auto where(image_view<const std::uint8_t> mask, const Filter& filter) {
-    return detail::masked(mask, nullptr, filter);
+auto where(image_view<const std::uint8_t> mask, Filter&& filter) {
+    return detail::masked(mask, nullptr, std::forward<Filter>(filter));
 }
 /// The same with a mask that is a temporary, which the filter keeps.
 template <class Filter>
-auto where(image<std::uint8_t>&& mask, const Filter& filter) {
+auto where(image<std::uint8_t>&& mask, Filter&& filter) {
     const auto kept = std::make_shared<const image<std::uint8_t>>(std::move(mask));
-    return detail::masked(kept->view(), kept, filter);
+    return detail::masked(kept->view(), kept, std::forward<Filter>(filter));
+}
+template <class Filter>
+auto where(const image<std::uint8_t>&& mask, Filter&& filter) {
+    return where(image<std::uint8_t>(mask), std::forward<Filter>(filter));
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -5941,7 +5946,7 @@ INSONIFY_ARITHMETIC_END
 //
 // Its clip space is the library's: visible is -w <= x <= w, -w <= y <= w with y up, and 0 <= z <= w. Depth is reversed,
 // z / w = z_near / distance along the camera's axis, so that precision does not fall off far away (draw with
-// keep_depth::larger).
+// depth_compare::greater).
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
@@ -6036,9 +6041,9 @@ inline namespace INSONIFY_ABI {
 /// Axis of a body of revolution.
 enum class axis { x, y, z };
 
-/// A point of the outline that is turned about the axis, and the unit normal there, both in the half plane
+/// A point of the profile that is turned about the axis, and the unit normal there, both in the half plane
 /// (distance from the axis, height along it); metres.
-struct outline_point {
+struct profile_point {
     double radius = 0;
     double height = 0;
     double normal_radius = 0;
@@ -6072,11 +6077,11 @@ namespace detail::inline INSONIFY_FLAGS {
 #if INSONIFY_BODIES
 /// Appends an arc of a circle centred on the axis, `steps` + 1 points from `first` to `last`: turns, counted from the
 /// lowest point (0) over the equator (1/4) to the highest (1/2).
-inline void append_arc(dynamic_array<outline_point>& outline, double radius, double centre, double first, double last,
+inline void append_arc(dynamic_array<profile_point>& profile, double radius, double centre, double first, double last,
                        int steps) {
     for (int i = 0; i <= steps; ++i) {
         const auto [sine, cosine] = numeric::sin_cos_turns(first + (last - first) * i / steps);
-        outline.push_back({radius * sine, centre - radius * cosine, sine, -cosine});
+        profile.push_back({radius * sine, centre - radius * cosine, sine, -cosine});
     }
 }
 
@@ -6123,37 +6128,37 @@ int round_segments_for(float radius, float deviation, const RingsOf& rings_of) {
 
 inline namespace INSONIFY_ONCE {
 
-/// The outline turned about an axis. Two points in the same place with different normals make a sharp edge.
+/// The profile turned about an axis. Two points in the same place with different normals make a sharp edge.
 ///
 /// Vertices lie on the true surface, so the mesh is inscribed where it bulges and its error falls with segments^-2.
-/// It is closed if the outline starts and ends on the axis; closed by index alone if it has no sharp edge and no tip.
+/// It is closed if the profile starts and ends on the axis; closed by index alone if it has no sharp edge and no tip.
 ///
-/// @param outline   from low to high along the outside, so that triangles face away from the axis
+/// @param profile   from low to high along the outside, so that triangles face away from the axis
 /// @param segments  around the axis, 3 to 2^20
 /// @throws invalid_input for another number of segments, more than 2^28 vertices, or a point that is not finite or
 ///         beyond the axis
-INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segments, axis around = axis::z);
+INSONIFY_FUNCTION mesh revolve(std::span<const profile_point> profile, int segments, axis around = axis::z);
 
 #if INSONIFY_BODIES
-INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segments, axis around) {
+INSONIFY_FUNCTION mesh revolve(std::span<const profile_point> profile, int segments, axis around) {
     detail::require_revolved_segments("segments", segments);
     const auto count = static_cast<std::uint32_t>(segments);
-    detail::require(outline.size() <= (std::size_t{1} << 28) / count, "outline.size()", outline.size(),
+    detail::require(profile.size() <= (std::size_t{1} << 28) / count, "profile.size()", profile.size(),
                     "at most 2^28 vertices in all");
 
     mesh out;
     // The components of a vector along the axis and across it follow each other cyclically: a rotation, not a mirror.
     const int along = static_cast<int>(around);
-    const auto turned = [&](double radius, double height, const numeric::sine_cosine& angle) {
+    const auto revolved = [&](double radius, double height, const numeric::sine_cosine& angle) {
         glm::vec3 v;
         v[along] = static_cast<float>(height);
         v[(along + 1) % 3] = static_cast<float>(radius * angle.cosine);
         v[(along + 2) % 3] = static_cast<float>(radius * angle.sine);
         return v;
     };
-    const auto add_vertex = [&](const outline_point& p, const numeric::sine_cosine& angle) {
-        out.positions.push_back(turned(p.radius, p.height, angle));
-        out.normals.push_back(turned(p.normal_radius, p.normal_height, angle));
+    const auto add_vertex = [&](const profile_point& p, const numeric::sine_cosine& angle) {
+        out.positions.push_back(revolved(p.radius, p.height, angle));
+        out.normals.push_back(revolved(p.normal_radius, p.normal_height, angle));
     };
 
     detail::dynamic_array<numeric::sine_cosine> angles(count), half_angles(count);
@@ -6168,10 +6173,10 @@ INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segme
         std::uint32_t operator()(std::uint32_t segment) const { return first + step * segment; }
     };
     ring below{};
-    for (std::size_t k = 0; k < outline.size(); ++k) {
-        const outline_point& p = outline[k];
-        detail::require_not_negative("outline_point.radius", p.radius);
-        detail::require(numeric::is_finite(p.height), "outline_point.height", p.height, "finite");
+    for (std::size_t k = 0; k < profile.size(); ++k) {
+        const profile_point& p = profile[k];
+        detail::require_not_negative("profile_point.radius", p.radius);
+        detail::require(numeric::is_finite(p.height), "profile_point.height", p.height, "finite");
         const bool on_axis = p.radius == 0;
         const ring here{static_cast<std::uint32_t>(out.positions.size()), on_axis && p.normal_radius == 0 ? 0u : 1u};
 
@@ -6181,8 +6186,8 @@ INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segme
         else
             for (const auto& angle : on_axis ? half_angles : angles) add_vertex(p, angle);
 
-        const bool joined = k > 0 && (outline[k - 1].radius != p.radius || outline[k - 1].height != p.height);
-        const bool below_on_axis = k > 0 && outline[k - 1].radius == 0;
+        const bool joined = k > 0 && (profile[k - 1].radius != p.radius || profile[k - 1].height != p.height);
+        const bool below_on_axis = k > 0 && profile[k - 1].radius == 0;
         for (std::uint32_t i = 0; joined && i < count; ++i) {
             const std::uint32_t j = i + 1 == count ? 0 : i + 1;
             if (!below_on_axis) out.triangles.emplace_back(below(i), below(j), here(on_axis ? i : j));
@@ -6237,15 +6242,15 @@ INSONIFY_FUNCTION mesh to_mesh(const cone& shape) {
     const double slant = numeric::square_root(height * height + (radius - top) * (radius - top));
     const double outwards = height / slant;
     const double upwards = (radius - top) / slant;
-    detail::dynamic_array<outline_point> outline = {{0, -height / 2, 0, -1},
+    detail::dynamic_array<profile_point> profile = {{0, -height / 2, 0, -1},
                                                     {radius, -height / 2, 0, -1},
                                                     {radius, -height / 2, outwards, upwards},
                                                     {top, height / 2, outwards, upwards}};
     if (top > 0) {
-        outline.push_back({top, height / 2, 0, 1});
-        outline.push_back({0, height / 2, 0, 1});
+        profile.push_back({top, height / 2, 0, 1});
+        profile.push_back({0, height / 2, 0, 1});
     }
-    return revolve(outline, shape.segments);
+    return revolve(profile, shape.segments);
 }
 #endif
 
@@ -6357,13 +6362,13 @@ INSONIFY_FUNCTION mesh to_mesh(const cylinder& shape) {
     detail::require_revolved_segments("cylinder.segments", shape.segments);
     const auto radius = static_cast<double>(shape.radius);
     const double half = 0.5 * static_cast<double>(shape.length);
-    const std::array<outline_point, 6> outline = {{{0, -half, 0, -1},
+    const std::array<profile_point, 6> profile = {{{0, -half, 0, -1},
                                                    {radius, -half, 0, -1},
                                                    {radius, -half, 1, 0},
                                                    {radius, half, 1, 0},
                                                    {radius, half, 0, 1},
                                                    {0, half, 0, 1}}};
-    return revolve(outline, shape.segments, axis::x);
+    return revolve(profile, shape.segments, axis::x);
 }
 
 INSONIFY_FUNCTION mesh to_mesh(const capsule& shape) {
@@ -6374,10 +6379,10 @@ INSONIFY_FUNCTION mesh to_mesh(const capsule& shape) {
     const auto radius = static_cast<double>(shape.radius);
     const double straight = 0.5 * static_cast<double>(shape.length) - radius;
     const int steps = (shape.segments + 3) / 4;
-    detail::dynamic_array<outline_point> outline;
-    detail::append_arc(outline, radius, -straight, 0.0, 0.25, steps);
-    detail::append_arc(outline, radius, straight, 0.25, 0.5, steps);
-    return revolve(outline, shape.segments, axis::x);
+    detail::dynamic_array<profile_point> profile;
+    detail::append_arc(profile, radius, -straight, 0.0, 0.25, steps);
+    detail::append_arc(profile, radius, straight, 0.25, 0.5, steps);
+    return revolve(profile, shape.segments, axis::x);
 }
 #endif
 
@@ -6655,8 +6660,8 @@ class triangle_lattice {
 
     /// Column and row of a vertex, from the triangle's right angle; none if it is more than a quarter of a step off.
     std::optional<glm::ivec2> steps(const mesh& m, std::uint32_t vertex) const {
-        const glm::dvec2 off = place(m, vertex) - origin_;
-        const glm::dvec2 at{x_of_.x * off.x + x_of_.y * off.y, y_of_.x * off.x + y_of_.y * off.y};
+        const glm::dvec2 offset = place(m, vertex) - origin_;
+        const glm::dvec2 at{x_of_.x * offset.x + x_of_.y * offset.y, y_of_.x * offset.x + y_of_.y * offset.y};
         constexpr double limit = 1 << 24;
         glm::ivec2 whole;
         for (int axis = 0; axis < 2; ++axis) {
@@ -6866,7 +6871,7 @@ struct regular_grid {
     glm::dvec2 origin{0}, right{0}, up{0};  ///< metres, in the mesh's frame
     /// Cells are cut from vertex (i, j) to (i + 1, j + 1), or else from (i + 1, j) to (i, j + 1).
     bool is_rising = true;
-    double off = 0x1p-12;  ///< bound of the distance of vertices from the lattice, in steps
+    double lattice_error = 0x1p-12;  ///< bound of the distance of vertices from the lattice, in steps
 };
 
 #if INSONIFY_BODIES
@@ -6911,7 +6916,7 @@ struct cell_row_kernel {
     }
 };
 
-/// Columns of the grid that a mesh's first two triangles belong to, and how they cut its first cell; or nothing.
+/// The number of columns of a grid and the diagonal of its cells, from the mesh's first two triangles.
 struct cell_cut {
     std::uint32_t columns;
     bool is_rising;
@@ -6930,8 +6935,7 @@ struct cell_cut {
     }
 
   private:
-    /// Each triangle goes around the cell and leaves one corner out, the two of them opposite ones.
-    /// @returns the first's
+    /// The corner of the cell that the first triangle omits, if the second omits the opposite one.
     static std::optional<int> missing_corner(const glm::uvec3 (&cell)[2], const std::uint32_t (&around)[4]) {
         int left_out[2];
         for (int i = 0; i < 2; ++i) {
@@ -6956,10 +6960,10 @@ inline namespace INSONIFY_ONCE {
 /// The regular grid of a mesh's vertices; none if they are not on one, or a height is not finite.
 /// @param off  distance from the lattice up to which vertices are accepted, in steps; `regular_grid::off` of the result
 ///             bounds the actual distance
-INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m, double off = 1.0 / 256);
+INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m, double tolerance = 1.0 / 256);
 
 #if INSONIFY_BODIES
-INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m, double off) {
+INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m, double tolerance) {
     if (m.triangles.size() < 2) return std::nullopt;
     const glm::uvec3 cell[2] = {m.triangles[0], m.triangles[1]};
     const auto cut = detail::cell_cut::of(cell);
@@ -6977,7 +6981,7 @@ INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m
     const auto square = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
     // Metres between the lines of the lattice. Of an oblique one this is less than the length of a step.
     const double step = numeric::abs(area) / numeric::square_root((std::max)(square(right), square(up)));
-    const double farthest_accepted = square({step * off, 0});
+    const double farthest_accepted = square({step * tolerance, 0});
 
     double farthest = 0;  // squared
     for (std::size_t j = 0; j < rows; ++j) {
@@ -7028,18 +7032,18 @@ inline namespace INSONIFY_FLAGS {
 
 /// Topology of a mesh, with coincident vertices merged (sharp edges split vertices for their normals).
 struct topology {
-    std::size_t vertices = 0;        ///< distinct positions that triangles use
-    std::size_t edges = 0;           ///< pairs of vertices that triangles join
-    std::size_t triangles = 0;       ///< without the degenerate ones
-    std::size_t degenerate = 0;      ///< triangles with two coincident corners, not counted elsewhere
-    std::size_t boundary_edges = 0;  ///< edges with one triangle
-    std::size_t tangled_edges = 0;   ///< edges with more than two triangles, or two that traverse it the same way
-    std::size_t inward_pieces = 0;   ///< pieces, connected by vertices, that face inwards or enclose nothing
+    std::size_t vertices = 0;            ///< distinct positions that triangles use
+    std::size_t edges = 0;               ///< pairs of vertices that triangles join
+    std::size_t triangles = 0;           ///< without the degenerate ones
+    std::size_t degenerate = 0;          ///< triangles with two coincident corners, not counted elsewhere
+    std::size_t boundary_edges = 0;      ///< edges with one triangle
+    std::size_t non_manifold_edges = 0;  ///< edges with more than two triangles, or two that traverse it the same way
+    std::size_t inward_components = 0;   ///< pieces, connected by vertices, that face inwards or enclose nothing
 
     /// Every edge joins two triangles of the same orientation.
-    bool closed() const { return triangles > 0 && boundary_edges == 0 && tangled_edges == 0; }
+    bool closed() const { return triangles > 0 && boundary_edges == 0 && non_manifold_edges == 0; }
     /// Closed, with all triangles facing outwards.
-    bool solid() const { return closed() && inward_pieces == 0; }
+    bool solid() const { return closed() && inward_components == 0; }
     /// V - E + F: 2 for a closed surface of one piece without handles.
     std::int64_t euler_characteristic() const {
         return static_cast<std::int64_t>(vertices + triangles) - static_cast<std::int64_t>(edges);
@@ -7078,9 +7082,9 @@ inline topology inspect(const mesh& m) {
     // An edge's key has its lower vertex first; the number is the triangle's direction along it.
     detail::dynamic_array<detail::keyed> sides;
     std::vector<bool> used(m.positions.size());
-    std::vector<std::uint32_t> joined = first;  // union-find: a vertex of the same piece; the root is its id
+    std::vector<std::uint32_t> parent = first;  // union-find: a vertex of the same piece; the root is its id
     const auto piece_of = [&](std::uint32_t vertex) {
-        while (joined[vertex] != vertex) vertex = joined[vertex] = joined[joined[vertex]];
+        while (parent[vertex] != vertex) vertex = parent[vertex] = parent[parent[vertex]];
         return vertex;
     };
     detail::dynamic_array<double> volume(m.positions.size());  // by piece, six times the enclosed volume
@@ -7100,7 +7104,7 @@ inline topology inspect(const mesh& m) {
             sides.push_back({std::uint64_t{(std::min)(a, b)} << 32 | (std::max)(a, b), a < b ? 1u : 0u});
             out.vertices += used[a] ? 0u : 1u;
             used[a] = true;
-            joined[piece_of(a)] = piece_of(b);
+            parent[piece_of(a)] = piece_of(b);
         }
     }
     detail::radix_sort(sides);
@@ -7114,7 +7118,7 @@ inline topology inspect(const mesh& m) {
                          numeric::cross(glm::dvec3(m.positions[t.y]) - from, glm::dvec3(m.positions[t.z]) - from));
     }
     for (std::uint32_t v = 0; v < volume.size(); ++v)
-        if (used[v] && joined[v] == v && !(volume[v] > 0)) ++out.inward_pieces;
+        if (used[v] && parent[v] == v && !(volume[v] > 0)) ++out.inward_components;
 
     for (std::size_t i = 0, end; i < sides.size(); i = end) {
         for (end = i + 1; end < sides.size() && sides[end].key == sides[i].key;) ++end;
@@ -7122,7 +7126,7 @@ inline topology inspect(const mesh& m) {
         if (end - i == 1)
             ++out.boundary_edges;
         else if (end - i > 2 || sides[i + 1].number == sides[i].number)
-            ++out.tangled_edges;
+            ++out.non_manifold_edges;
     }
     return out;
 }
@@ -7267,7 +7271,7 @@ inline namespace INSONIFY_ABI {
 namespace detail {
 
 /// State that copies of a shared mesh refer to.
-struct mesh_facts {
+struct mesh_properties {
     mesh shape;
     bounding_box box;
     surface_kind kind = surface_kind::open;
@@ -7281,9 +7285,9 @@ struct mesh_facts {
 namespace detail::inline INSONIFY_ONCE {
 
 /// @throws invalid_input for indices or normals that don't match the positions
-INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m);
+INSONIFY_FUNCTION std::shared_ptr<const mesh_properties> mesh_properties_of(mesh m);
 /// The same for the mesh of a primitive, of which only the bounds have to be computed.
-INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> primitive_facts_of(mesh m);
+INSONIFY_FUNCTION std::shared_ptr<const mesh_properties> primitive_properties_of(mesh m);
 
 #if INSONIFY_BODIES
 /// Whether a heightfield, whose outline is convex, extends over all of its box, seen from above.
@@ -7300,29 +7304,31 @@ inline bool fills_box(const mesh& m, const bounding_box& box) {
     return has_corner[0] && has_corner[1] && has_corner[2] && has_corner[3];
 }
 
-INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m) {
-    const auto made = std::make_shared<mesh_facts>();
-    mesh_facts& facts = *made;
-    facts.shape = std::move(m);
-    validate(facts.shape);
-    facts.box = bounds(facts.shape);
-    if (!facts.shape.normals.empty()) wind_by_normals(facts.shape);  // first: triangles of a grid are counter-clockwise
-    facts.grid = regular_grid_of(facts.shape, mesh_facts::grid_error);
-    if (!facts.grid && order_by_lattice(facts.shape))
-        facts.grid = regular_grid_of(facts.shape, mesh_facts::grid_error);
-    else if (!facts.grid && is_incoherent(facts.shape))
-        order_along_curve(facts.shape, facts.box);
-    if (facts.shape.normals.empty()) facts.shape.normals = smooth_normals(facts.shape);
-    facts.kind = kind_of(facts.shape);
+INSONIFY_FUNCTION std::shared_ptr<const mesh_properties> mesh_properties_of(mesh m) {
+    const auto made = std::make_shared<mesh_properties>();
+    mesh_properties& properties = *made;
+    properties.shape = std::move(m);
+    validate(properties.shape);
+    properties.box = bounds(properties.shape);
+    if (!properties.shape.normals.empty())
+        wind_by_normals(properties.shape);  // first: triangles of a grid are counter-clockwise
+    properties.grid = regular_grid_of(properties.shape, mesh_properties::grid_error);
+    if (!properties.grid && order_by_lattice(properties.shape))
+        properties.grid = regular_grid_of(properties.shape, mesh_properties::grid_error);
+    else if (!properties.grid && is_incoherent(properties.shape))
+        order_along_curve(properties.shape, properties.box);
+    if (properties.shape.normals.empty()) properties.shape.normals = smooth_normals(properties.shape);
+    properties.kind = kind_of(properties.shape);
     // Without a grid or a box-shaped outline, renderers would have to search for the surface below a position.
-    if (facts.kind == surface_kind::heightfield && !facts.grid && !fills_box(facts.shape, facts.box))
-        facts.kind = surface_kind::open;
-    if (facts.kind != surface_kind::heightfield) facts.grid.reset();
+    if (properties.kind == surface_kind::heightfield && !properties.grid &&
+        !fills_box(properties.shape, properties.box))
+        properties.kind = surface_kind::open;
+    if (properties.kind != surface_kind::heightfield) properties.grid.reset();
     return made;
 }
 
-INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> primitive_facts_of(mesh m) {
-    const auto made = std::make_shared<mesh_facts>();
+INSONIFY_FUNCTION std::shared_ptr<const mesh_properties> primitive_properties_of(mesh m) {
+    const auto made = std::make_shared<mesh_properties>();
     made->box = bounds(m);
     made->shape = std::move(m);
     made->kind = surface_kind::closed;
@@ -7356,9 +7362,9 @@ concept has_mesh = requires(const Shape& shape) {
 class shared_mesh {
   public:
     /// No triangles.
-    shared_mesh() : facts_(std::make_shared<detail::mesh_facts>()) {}
+    shared_mesh() : properties_(std::make_shared<detail::mesh_properties>()) {}
     /// @throws invalid_input for indices or normals that don't match the positions
-    INSONIFY_MEMBER shared_mesh(mesh m) : facts_(detail::facts_of(std::move(m))) {}
+    INSONIFY_MEMBER shared_mesh(mesh m) : properties_(detail::mesh_properties_of(std::move(m))) {}
     /// The mesh of a shape with a `to_mesh`. Primitives skip the analysis, because their type tells its results; a
     /// program that has no other shapes does not compile it.
     template <class Shape>
@@ -7367,7 +7373,7 @@ class shared_mesh {
                       "a target's shape is a mesh, a shared_mesh, or of a type with a function to_mesh(const T&) in "
                       "its namespace that returns one of them");
         if constexpr (detail::is_primitive<Shape>)
-            return shared_mesh(detail::primitive_facts_of(to_mesh(shape)));
+            return shared_mesh(detail::primitive_properties_of(to_mesh(shape)));
         else if constexpr (detail::has_mesh<Shape>)
             return shared_mesh(to_mesh(shape));
         else
@@ -7376,23 +7382,24 @@ class shared_mesh {
     /// The same as the constructor.
     INSONIFY_MEMBER static shared_mesh of(mesh m) { return shared_mesh(std::move(m)); }
 
-    const mesh& operator*() const { return facts_->shape; }
-    const mesh* operator->() const { return &facts_->shape; }
-    operator mesh_view() const { return facts_->shape; }
+    const mesh& operator*() const { return properties_->shape; }
+    const mesh* operator->() const { return &properties_->shape; }
+    operator mesh_view() const { return properties_->shape; }
 
     /// Around all finite positions, in the mesh's own frame.
-    const bounding_box& box() const { return facts_->box; }
+    const bounding_box& box() const { return properties_->box; }
     /// Heightfields whose outline is neither their grid's nor that of the box count as open.
-    surface_kind kind() const { return facts_->kind; }
+    surface_kind kind() const { return properties_->kind; }
     /// The grid of a heightfield whose vertices lie on one, within `grid_error` steps; null otherwise. Turn a mesh by
     /// its pose: turned vertices are rounded, which leaves the outline concave, and then there is no grid.
-    const regular_grid* grid() const { return facts_->grid ? &*facts_->grid : nullptr; }
-    static constexpr double grid_error = detail::mesh_facts::grid_error;
+    const regular_grid* grid() const { return properties_->grid ? &*properties_->grid : nullptr; }
+    static constexpr double grid_error = detail::mesh_properties::grid_error;
 
   private:
-    INSONIFY_MEMBER explicit shared_mesh(std::shared_ptr<const detail::mesh_facts> facts) : facts_(std::move(facts)) {}
+    INSONIFY_MEMBER explicit shared_mesh(std::shared_ptr<const detail::mesh_properties> properties)
+        : properties_(std::move(properties)) {}
 
-    std::shared_ptr<const detail::mesh_facts> facts_;
+    std::shared_ptr<const detail::mesh_properties> properties_;
 };
 
 }  // namespace INSONIFY_ABI
@@ -7429,10 +7436,10 @@ float longest_semi_axis(const Round& shape) {
 }
 
 #if INSONIFY_BODIES
-/// Turns an outline about z and stretches the result with its normals.
-inline mesh stretched_round(const dynamic_array<outline_point>& outline, const char* name, const glm::vec3& aspect,
+/// Turns an profile about z and stretches the result with its normals.
+inline mesh stretched_round(const dynamic_array<profile_point>& profile, const char* name, const glm::vec3& aspect,
                             int segments) {
-    mesh out = revolve(outline, segments);
+    mesh out = revolve(profile, segments);
     if (aspect == glm::vec3(1)) return out;
     affine stretch;
     for (int i = 0; i < 3; ++i) {
@@ -7458,18 +7465,18 @@ INSONIFY_FUNCTION mesh to_mesh(const hemisphere& shape);
 INSONIFY_FUNCTION mesh to_mesh(const sphere& shape) {
     detail::require_positive("sphere.radius", shape.radius);
     detail::require_round_segments("sphere.segments", shape.segments);
-    detail::dynamic_array<outline_point> outline;
-    detail::append_arc(outline, static_cast<double>(shape.radius), 0.0, 0.0, 0.5, (shape.segments + 1) / 2);
-    return detail::stretched_round(outline, "sphere.aspect", shape.aspect, shape.segments);
+    detail::dynamic_array<profile_point> profile;
+    detail::append_arc(profile, static_cast<double>(shape.radius), 0.0, 0.0, 0.5, (shape.segments + 1) / 2);
+    return detail::stretched_round(profile, "sphere.aspect", shape.aspect, shape.segments);
 }
 
 INSONIFY_FUNCTION mesh to_mesh(const hemisphere& shape) {
     detail::require_positive("hemisphere.radius", shape.radius);
     detail::require_round_segments("hemisphere.segments", shape.segments);
     const auto radius = static_cast<double>(shape.radius);
-    detail::dynamic_array<outline_point> outline = {{0, 0, 0, -1}, {radius, 0, 0, -1}};
-    detail::append_arc(outline, radius, 0.0, 0.25, 0.5, (shape.segments + 3) / 4);
-    return detail::stretched_round(outline, "hemisphere.aspect", shape.aspect, shape.segments);
+    detail::dynamic_array<profile_point> profile = {{0, 0, 0, -1}, {radius, 0, 0, -1}};
+    detail::append_arc(profile, radius, 0.0, 0.25, 0.5, (shape.segments + 3) / 4);
+    return detail::stretched_round(profile, "hemisphere.aspect", shape.aspect, shape.segments);
 }
 #endif
 
@@ -7508,7 +7515,8 @@ inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 [[noreturn]] inline void raise_io(std::string_view path, std::string_view reason) {
-    raise(io_error((path.empty() ? "a file with an empty name" : std::string(path)) + ": " + std::string(reason)));
+    throw_error(
+        io_error((path.empty() ? "a file with an empty name" : std::string(path)) + ": " + std::string(reason)));
 }
 [[noreturn]] inline void raise_io(std::string_view path, std::string_view reason, int error) {
     raise_io(path, std::string(reason) + ": " + std::error_code(error, std::generic_category()).message());
@@ -8007,10 +8015,10 @@ inline namespace INSONIFY_ABI {
 /// The side of a triangle that is not drawn. A triangle's front is where its vertices run counter-clockwise.
 enum class cull_mode { none, back, front };
 
-/// The depth test: which of two surfaces a pixel shows.
-enum class keep_depth {
-    smaller,  ///< z = 0 at the near plane, growing away from the camera
-    larger,   ///< reversed z, or heights seen from above
+/// The depth test: a surface replaces the pixel's if its depth is less, or greater, than the stored one.
+enum class depth_compare {
+    less,     ///< z = 0 at the near plane, growing away from the camera
+    greater,  ///< reversed z, or heights seen from above
 };
 
 /// Contents of the target before a draw.
@@ -8022,9 +8030,9 @@ enum class depth_load {
 inline namespace INSONIFY_FLAGS {
 
 /// Depth of a pixel without a visible triangle.
-constexpr float empty_depth(keep_depth keep) {
-    return keep == keep_depth::smaller ? std::numeric_limits<float>::infinity()
-                                       : -std::numeric_limits<float>::infinity();
+constexpr float empty_depth(depth_compare compare) {
+    return compare == depth_compare::less ? std::numeric_limits<float>::infinity()
+                                          : -std::numeric_limits<float>::infinity();
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -8042,8 +8050,8 @@ enum class depth_precision {
 template <depth_precision Depth = depth_precision::exact>
 struct draw_options {
     cull_mode cull = cull_mode::none;
-    keep_depth keep = keep_depth::smaller;
-    depth_load load = depth_load::keep;  ///< a new image is full of 0, the nearest depth of `smaller`: clear it
+    depth_compare compare = depth_compare::less;
+    depth_load load = depth_load::keep;  ///< a new image is full of 0, the nearest depth under `less`: clear it
     int subpixel_bits = 8;               ///< 4 to 16: vertices are rounded to 2^-bits pixels
     int tile = 64;                       ///< pixels, a power of two from 8 to 256
     isa level = best_isa();              ///< the widest instruction set to use
@@ -8084,7 +8092,7 @@ struct draw_stats {
 // A label is one byte, stored in data sets. To add a type of relief, write its model in a file of its own and a row at
 // the end of INSONIFY_RELIEF_TYPES; to add a sediment, write a row at the end of INSONIFY_SEDIMENTS. The enumerations,
 // names in manifests, defaults of scenes and defaults of speckle are made from the rows. Labels number the rows in
-// order, so a new type of relief renumbers the sediments: manifests name the labels of their data set. `own_type(0)`
+// order, so a new type of relief renumbers the sediments: manifests name the labels of their data set. `user_type(0)`
 // and above are free for users' seabeds, which state their properties (see model.hpp).
 
 #include <iterator>
@@ -8137,23 +8145,23 @@ namespace seabed {
 
 #define INSONIFY_LABEL(label, ...) label,
 
-/// Label of the bottom: a type of relief, a sediment, or a user's (see `own_type`).
+/// Label of the bottom: a type of relief, a sediment, or a user's (see `user_type`).
 enum class type : std::uint8_t { INSONIFY_RELIEF_TYPES(INSONIFY_LABEL) INSONIFY_SEDIMENTS(INSONIFY_LABEL) };
 
 #undef INSONIFY_LABEL
 
-inline constexpr std::size_t first_own_label = 64;  ///< lower labels are reserved for the library
-inline constexpr std::size_t label_count = 256;     ///< in images of labels the last means no seabed
+inline constexpr std::size_t first_user_label = 64;  ///< lower labels are reserved for the library
+inline constexpr std::size_t label_count = 256;      ///< in images of labels the last means no seabed
 
 inline namespace INSONIFY_FLAGS {
 
 /// A label for a user's seabed, which the library never uses.
 /// @param number  0 to 190
 /// @throws invalid_input for a number out of its range
-constexpr type own_type(int number) {
-    const auto limit = static_cast<int>(label_count - 1 - first_own_label);
-    if (number < 0 || number >= limit) insonify::detail::refuse("own_type number", number, "0 to 190");
-    return static_cast<type>(static_cast<int>(first_own_label) + number);
+constexpr type user_type(int number) {
+    const auto limit = static_cast<int>(label_count - 1 - first_user_label);
+    if (number < 0 || number >= limit) insonify::detail::refuse("user_type number", number, "0 to 190");
+    return static_cast<type>(static_cast<int>(first_user_label) + number);
 }
 
 /// Index of a label in tables with one entry per label.
@@ -8193,7 +8201,7 @@ struct sediment_form {
 };
 
 /// The acoustic and geometric parameters of a sediment.
-struct sediment_facts {
+struct sediment_parameters {
     type label;
     std::string_view name;
     float phi;                ///< mean grain size, -log2 of millimetres
@@ -8221,7 +8229,7 @@ enum class sediment : std::uint8_t { INSONIFY_SEDIMENTS(INSONIFY_SEDIMENT) };
 /// The rows of types of relief.
 inline constexpr type_properties relief_types[] = {INSONIFY_RELIEF_TYPES(INSONIFY_PROPERTIES)};
 /// The rows of sediments.
-inline constexpr sediment_facts sediments[] = {INSONIFY_SEDIMENTS(INSONIFY_PROPERTIES)};
+inline constexpr sediment_parameters sediments[] = {INSONIFY_SEDIMENTS(INSONIFY_PROPERTIES)};
 
 #undef INSONIFY_SEDIMENT
 #undef INSONIFY_PROPERTIES
@@ -8237,7 +8245,7 @@ constexpr type type_of(sediment s) {
 
 /// The row of a sediment.
 /// @throws invalid_input for a value that is no enumerator
-constexpr const sediment_facts& facts_of(sediment s) {
+constexpr const sediment_parameters& parameters_of(sediment s) {
     const std::size_t row = static_cast<std::size_t>(s) - std::size(relief_types);
     if (row >= std::size(sediments))
         insonify::detail::refuse("sediment", static_cast<int>(s), "an enumerator of seabed::sediment");
@@ -8248,7 +8256,7 @@ constexpr const sediment_facts& facts_of(sediment s) {
 
 /// Labels of the library.
 inline constexpr std::size_t type_count = std::size(relief_types) + std::size(sediments);
-static_assert(type_count <= first_own_label);
+static_assert(type_count <= first_user_label);
 
 namespace detail::inline INSONIFY_FLAGS {
 
@@ -8257,8 +8265,8 @@ constexpr std::array<type_properties, type_count> registered_types() {
     std::size_t count = 0;
     for (const type_properties& t : relief_types) rows[count++] = t;
     // Sediments relative to sand, which is as bright as medium sand.
-    const float sand = relief_types[0].reflectivity / facts_of(sediment::medium_sand).strength_at_nadir();
-    for (const sediment_facts& s : sediments)
+    const float sand = relief_types[0].reflectivity / parameters_of(sediment::medium_sand).strength_at_nadir();
+    for (const sediment_parameters& s : sediments)
         rows[count++] = {s.label, s.name, sand * s.strength_at_nadir(), {1, s.texture, s.steady}};
     return rows;
 }
@@ -8290,7 +8298,7 @@ INSONIFY_ARITHMETIC_END
 // A model is a copyable value of two or three members, of the library or of a user:
 //
 //     struct dunes {
-//         static constexpr in::seabed::type_properties kind{in::seabed::own_type(0), "dunes", 0.6f, {.texture = 8}};
+//         static constexpr in::seabed::type_properties kind{in::seabed::user_type(0), "dunes", 0.6f, {.texture = 8}};
 //         void row(const in::seabed::scanline& line, std::span<float> heights) const;  // metres above the datum
 //         in::seabed::height_range range() const { return {-1, 1}; }                   // which it never leaves
 //     };
@@ -8314,7 +8322,7 @@ struct scanline {
     double spacing = 1;      ///< >= 0
     std::int64_t first = 0;  ///< index in the whole row of sample 0 here; may be negative
     /// Metres between the vertices of the grid that the row belongs to: relief that the grid can't carry fades out (see
-    /// `carried`). 0: no relief fades.
+    /// `band_limit_gain`). 0: no relief fades.
     double grid_spacing = 0;
 
     INSONIFY_MEMBER double x(std::size_t i) const { return origin + spacing * static_cast<double>(number(i)); }
@@ -8331,7 +8339,7 @@ inline namespace INSONIFY_FLAGS {
 ///
 /// Alan Norton, Alyn P. Rockwood, Philip T. Skolmoski. Clamping: A Method of Antialiasing Textured Surfaces by
 /// Bandwidth Limiting in Object Space. SIGGRAPH, 1982.
-constexpr float carried(double wavelength, double spacing) {
+constexpr float band_limit_gain(double wavelength, double spacing) {
     if (wavelength >= 4 * spacing) return 1;
     return wavelength <= 2 * spacing ? 0.0f : static_cast<float>(2 - 4 * spacing / wavelength);
 }
@@ -8574,8 +8582,8 @@ inline void extend(std::vector<type_properties>& legend, const std::vector<type_
     }
 }
 
-/// How deep a layer has to sink to disappear below another, metres: about as far as its surface strays from its mean
-/// level. A model's `sink_depth()`, or half of its range.
+/// How far a layer must be lowered to vanish below another, metres: about the largest deviation of its surface from its
+/// mean level. A model's `sink_depth()`, or half of its range.
 template <model M>
 float sink_depth_of(const M& m) {
     if constexpr (requires { m.sink_depth(); }) {
@@ -9191,8 +9199,8 @@ class gradient_noise {
     /// @param cell  metres, > 0
     gradient_noise(double cell, cell_hash hash) : lattice_(lattice::shifted(cell, hash)), hash_(hash) {}
 
-    /// The fraction of the amplitude that the stretch's grid can carry; a cell is about half a wavelength.
-    float carried_by(const stretch& part) const { return carried(2 / lattice_.frequency, part.grid_spacing); }
+    /// Gain of the band limit on a stretch's grid; a cell is about half a wavelength.
+    float band_gain_on(const stretch& part) const { return band_limit_gain(2 / lattice_.frequency, part.grid_spacing); }
 
     /// Adds `amplitude` times the noise along a stretch to its values.
     template <int N>
@@ -9258,7 +9266,7 @@ class gradient_noise {
 
     struct line_of_cells {
         cell_hash::row below, above;
-        float up, rise, gain;  // the row's fraction within its cells, the fade of it, and the scale
+        float up, weight_y, gain;  // the row's fraction within its cells, the fade of it, and the scale
 
         template <int N>
         INSONIFY_INLINE void sides_of(lanes<float, N>& height, lanes<float, N>& slope, const words<N>& column) const {
@@ -9267,8 +9275,8 @@ class gradient_noise {
             gradient<N>(high_x, high_y, above, column);
             low_y = low_y * up;
             high_y = high_y * (up - 1.0f);
-            slope = gain * (low_x + rise * (high_x - low_x));
-            height = gain * (low_y + rise * (high_y - low_y));
+            slope = gain * (low_x + weight_y * (high_x - low_x));
+            height = gain * (low_y + weight_y * (high_y - low_y));
         }
 
         /// Both components in [-1, 1), from 16 bits each.
@@ -9357,9 +9365,9 @@ class power_law_noise {
     template <int N>
     INSONIFY_INLINE void add_lanes(const stretch& part, float* values) const {
         for (const octave& o : octaves_) {
-            const float kept = o.noise.carried_by(part);
-            if (kept == 0) break;  // finer octaves are not carried either
-            o.noise.template add<N>(part, kept * o.amplitude, values);
+            const float band_gain = o.noise.band_gain_on(part);
+            if (band_gain == 0) break;  // finer octaves are not resolved either
+            o.noise.template add<N>(part, band_gain * o.amplitude, values);
         }
     }
     dynamic_array<octave> octaves_;
@@ -9511,18 +9519,18 @@ class round_marks {
     template <int N>
     INSONIFY_INLINE void add_lanes(const stretch& part, float* values) const {
         const lattice& l = lattice_;
-        const float kept = carried(1 / l.frequency, part.grid_spacing);  // the largest span half a cell
-        if (kept == 0) return;
+        const float band_gain = band_limit_gain(1 / l.frequency, part.grid_spacing);  // the largest span half a cell
+        if (band_gain == 0) return;
         const lattice_coordinate v(l.v(part.y));
         const cell_hash::row hash = hash_[v.cell];
         visit_columns(l, part, 0, [&](std::int64_t first, std::int64_t count) INSONIFY_INLINE_LAMBDA {
             for (std::int64_t column = first; column < first + count; ++column)
-                add_mark<N>(part, values, kept, v.fraction, column, hash(column));
+                add_mark<N>(part, values, band_gain, v.fraction, column, hash(column));
         });
     }
 
     template <int N>
-    INSONIFY_INLINE void add_mark(const stretch& part, float* values, float kept, float up, std::int64_t column,
+    INSONIFY_INLINE void add_mark(const stretch& part, float* values, float band_gain, float up, std::int64_t column,
                                   std::uint64_t bits) const {
         const lattice& l = lattice_;
         const signed_pair centre(bits), traits(scramble(bits));
@@ -9532,7 +9540,7 @@ class round_marks {
         const float y = up - (0.5f + 0.25f * centre.b);
         const float y_square = y * y, inverse_square = 1 / (radius * radius);
         if (y_square >= radius * radius) return;
-        const float height = kept * ((chance < high_ ? mound_ : pock_) * (radius * 4));
+        const float height = band_gain * ((chance < high_ ? mound_ : pock_) * (radius * 4));
 
         const double middle = 0.5 + 0.25 * static_cast<double>(centre.a), reach = static_cast<double>(radius);
         const double left = static_cast<double>(column) + middle;
@@ -9630,12 +9638,13 @@ class ripple_train {
         require_range(name + ".spread", r.spread, 0, 0.5f, "0 to 0.5 radians");
         require_range(name + ".bandwidth", r.bandwidth, 0, 0.25f, "0 to 0.25");
         require_range(name + ".sharpness", r.sharpness, 0, 0.9f, "0 to 0.9");
-        if (half_height_ > 0) draw_waves(r, random_sequence(seed, static_cast<std::uint32_t>(purpose)));
+        if (half_height_ > 0) make_waves(r, random_sequence(seed, static_cast<std::uint32_t>(purpose)));
     }
 
     /// Adds the relief along a stretch to its values, metres.
     void add(const stretch& part, stretch_values& values, isa level = best_isa()) const {
-        if (half_height_ > 0 && carried(wavelength_, part.grid_spacing) > 0) add_relief(*this, part, values, level);
+        if (half_height_ > 0 && band_limit_gain(wavelength_, part.grid_spacing) > 0)
+            add_relief(*this, part, values, level);
     }
 
     /// Upper bound of the relief's absolute value, metres: the profile is within half the height, up to the carrier's
@@ -9664,11 +9673,11 @@ class ripple_train {
     static constexpr std::size_t block = 32;    // lattice points whose rotations are tabulated
     static constexpr std::size_t points = 256;  // size of the table that a stretch shares
 
-    void draw_waves(const ripple_system& r, random_sequence draw) {
+    void make_waves(const ripple_system& r, random_sequence random) {
         // Latin hypercube sampling of direction and wave number: few waves suffice for the required moments.
         std::array<double, waves> strata{};
         for (std::uint32_t n = 0; n < waves; ++n) {
-            const std::uint32_t other = draw.below(n + 1);
+            const std::uint32_t other = random.below(n + 1);
             strata[n] = strata[other];
             strata[other] = n;
         }
@@ -9679,12 +9688,13 @@ class ripple_train {
         double largest = 0;
         for (std::size_t n = 0; n < waves; ++n) {
             const double k = frequency * (1 + static_cast<double>(r.bandwidth) *
-                                                  triangular((static_cast<double>(n) + draw.uniform()) / waves));
-            const double turned = static_cast<double>(r.spread) * triangular((strata[n] + draw.uniform()) / waves);
-            const auto along = numeric::sin_cos(angle + turned);
+                                                  triangular((static_cast<double>(n) + random.uniform()) / waves));
+            const double angle_offset =
+                static_cast<double>(r.spread) * triangular((strata[n] + random.uniform()) / waves);
+            const auto along = numeric::sin_cos(angle + angle_offset);
             wave_x_[n] = k * along.cosine - carrier_x_;
             wave_y_[n] = k * along.sine - carrier_y_;
-            phase_[n] = draw.uniform();
+            phase_[n] = random.uniform();
             largest = (std::max)(largest, numeric::abs(wave_x_[n]));
         }
 
@@ -9762,8 +9772,8 @@ class ripple_train {
         using insonify::detail::lane;
         const double frequency = 1 / step_, across_rows = carrier_y_ * part.y;
         // The harmonic that sharpens crests has half their wavelength.
-        const float half_height = half_height_ * carried(wavelength_, part.grid_spacing);
-        const float sharpness = sharpness_ * carried(wavelength_ / 2, part.grid_spacing);
+        const float half_height = half_height_ * band_limit_gain(wavelength_, part.grid_spacing);
+        const float sharpness = sharpness_ * band_limit_gain(wavelength_ / 2, part.grid_spacing);
         const std::int64_t first = numeric::floor_to_int(part.x[0] * frequency) - 1;
         const std::int64_t last = numeric::floor_to_int(part.x[part.whole() - 1] * frequency) + 2;
         const bool dense = last - first < static_cast<std::int64_t>(points);
@@ -9849,12 +9859,12 @@ class trawl_furrows {
         require_range("trawl_marks.directions", t.directions, 1, 8, "1 to 8");
         require_range("trawl_marks.length", t.length, 1e-3f, 1e6f, "0.001 to 10^6 metres");
         if (t.density == 0 || t.depth == 0) return;
-        random_sequence draw(seed, static_cast<std::uint32_t>(stream::trawls));
-        const double turn = draw.uniform();
+        random_sequence random(seed, static_cast<std::uint32_t>(stream::trawls));
+        const double turn = random.uniform();
         // A furrow is present along half of its strip.
         const double strip = 0.5 * t.directions / static_cast<double>(t.density);
         for (int n = 0; n < t.directions; ++n) {
-            const auto heading = numeric::sin_cos_turns(turn + 0.5 * (n + 0.6 * draw.uniform()) / t.directions);
+            const auto heading = numeric::sin_cos_turns(turn + 0.5 * (n + 0.6 * random.uniform()) / t.directions);
             const double length = static_cast<double>(t.length);
             families_.push_back({heading.cosine, heading.sine, 1 / strip, 1 / length, 1 / (5.3 * length)});
         }
@@ -9879,23 +9889,24 @@ class trawl_furrows {
 
     template <int N>
     INSONIFY_INLINE void add_lanes(const stretch& part, float* values) const {
-        const float kept = carried(2 * width_, part.grid_spacing);  // a furrow between its berms
-        if (kept == 0) return;
+        const float band_gain = band_limit_gain(2 * width_, part.grid_spacing);  // a furrow between its berms
+        if (band_gain == 0) return;
         for (std::size_t n = 0; n < families_.size(); ++n)
-            for (std::size_t i = 0; i < part.whole(); i += N) add_family<N>(families_[n], n, kept, part, i, values + i);
+            for (std::size_t i = 0; i < part.whole(); i += N)
+                add_family<N>(families_[n], n, band_gain, part, i, values + i);
     }
 
     template <int N>
-    INSONIFY_INLINE void add_family(const family& f, std::size_t n, float kept, const stretch& part, std::size_t i,
+    INSONIFY_INLINE void add_family(const family& f, std::size_t n, float band_gain, const stretch& part, std::size_t i,
                                     float* values) const {
         using insonify::detail::lane;
         using words = lanes<std::uint32_t, N>;
         using ints = lanes<std::int32_t, N>;
         const double across = part.y * f.cosine * f.per_strip;
         const std::int64_t first = numeric::floor_to_int(across - part.x[0] * f.sine * f.per_strip);
-        lanes<float, N> off, shift, bends, sine, cosine;
+        lanes<float, N> distance, shift, bends, sine, cosine;
         ints cell;
-        locate<N>(off, cell, &part.x[i], -f.sine * f.per_strip, across, static_cast<double>(first));
+        locate<N>(distance, cell, &part.x[i], -f.sine * f.per_strip, across, static_cast<double>(first));
         words bits;
         hash_[static_cast<std::int64_t>(n)].hash_lanes(bits, words(words(cell) + static_cast<std::uint32_t>(first)));
         insonify::detail::convert(shift, ints(ints(bits << 16) >> 16));
@@ -9907,28 +9918,28 @@ class trawl_furrows {
         phase = phase > 0.5f ? phase - 1.0f : phase;
         phase = phase < -0.5f ? phase + 1.0f : phase;
         insonify::detail::cos_sin_turns<N>(cosine, sine, phase);
-        off = off - (0.5f + (0.5f - 2 * half_width_) * (0.7f * shift * 0x1p-15f + 0.3f * sine));
-        off = (off < 0.0f ? -off : off) * (1 / half_width_);
-        if (!insonify::detail::any(ints(off < 2.0f))) return;
+        distance = distance - (0.5f + (0.5f - 2 * half_width_) * (0.7f * shift * 0x1p-15f + 0.3f * sine));
+        distance = (distance < 0.0f ? -distance : distance) * (1 / half_width_);
+        if (!insonify::detail::any(ints(distance < 2.0f))) return;
         for (int k = 0; k < N; ++k) {
-            if (lane(off, k) >= 2) continue;
-            values[k] += kept * depth_at(f, n, lane(bits, k), lane(off, k),
-                                         part.x[i + static_cast<std::size_t>(k)] * f.cosine + part.y * f.sine);
+            if (lane(distance, k) >= 2) continue;
+            values[k] += band_gain * depth_at(f, n, lane(bits, k), lane(distance, k),
+                                              part.x[i + static_cast<std::size_t>(k)] * f.cosine + part.y * f.sine);
         }
     }
 
     /// @param bits    random bits of the strip
-    /// @param off     half widths from the furrow's middle
+    /// @param distance     half widths from the furrow's middle
     /// @param along   metres
-    float depth_at(const family& f, std::size_t n, std::uint32_t bits, float off, double along) const {
+    float depth_at(const family& f, std::size_t n, std::uint32_t bits, float distance, double along) const {
         // A strip is divided into lengths with or without a furrow, faded where they meet.
         const lattice_coordinate u(along * f.per_length + static_cast<double>(bits) * 0x1p-32);
         const cell_hash::row presence = hash_[static_cast<std::int64_t>((std::uint64_t{bits} << 8) + n + 64)];
         const auto present = [&](std::int64_t cell) { return (presence(cell) & 1) != 0 ? 1.0f : 0.0f; };
         const float strength = lerp(present(u.cell), present(u.cell + 1), fade(saturate(8 * u.fraction - 7)));
         // A bowl down to -1 that rises to a berm of 0.3, which ends at twice the half width.
-        const float inner = saturate(1 - off * off);
-        return depth_ * strength * (off < 1 ? 0.3f - 1.3f * inner * inner : 0.3f * fade(saturate(2 - off)));
+        const float inner = saturate(1 - distance * distance);
+        return depth_ * strength * (distance < 1 ? 0.3f - 1.3f * inner * inner : 0.3f * fade(saturate(2 - distance)));
     }
 
     dynamic_array<family> families_;
@@ -9962,7 +9973,7 @@ struct mud {
     float size = 0.35f;          ///< metres, from 0.001: radius of the largest; the smallest have 0.4 of it
     float mound_height = 0.04f;  ///< metres, >= 0: of the largest mounds
     float pock_depth = 0.04f;    ///< metres, >= 0: of the largest pock marks
-    float pock_share = 0.4f;     ///< in [0, 1]: fraction of them that are pock marks
+    float pock_fraction = 0.4f;  ///< in [0, 1]: fraction of them that are pock marks
     trawl_marks trawls{};        ///< none unless they have a density
     std::uint64_t seed = 1;
     type kind = type::mud;
@@ -9988,9 +9999,9 @@ class mud_sampler {
                         "0 to 1 / (4 size)^2 per square metre");
         detail::require_metres("mud.mound_height", m.mound_height);
         detail::require_metres("mud.pock_depth", m.pock_depth);
-        detail::require_fraction("mud.pock_share", m.pock_share);
+        detail::require_fraction("mud.pock_fraction", m.pock_fraction);
         const float filled = m.density * cell * cell;
-        marks_ = {static_cast<double>(cell),       filled, filled * (1 - m.pock_share), m.mound_height, m.pock_depth,
+        marks_ = {static_cast<double>(cell),       filled, filled * (1 - m.pock_fraction), m.mound_height, m.pock_depth,
                   {m.seed, detail::stream::mounds}};
     }
 
@@ -10144,8 +10155,8 @@ class block_layer {
           height_(height),
           wall_(steepness * static_cast<float>(cell)) {}
 
-    /// The fraction of the height that the stretch's grid can carry.
-    float carried_by(const stretch& part) const { return carried(2 / lattice_.frequency, part.grid_spacing); }
+    /// Gain of the band limit: 1 where the stretch's grid resolves the blocks, 0 where it can't.
+    float band_gain_on(const stretch& part) const { return band_limit_gain(2 / lattice_.frequency, part.grid_spacing); }
 
     /// Raises the values along a stretch, metres, to the tops of the blocks; values between blocks stay.
     template <int N>
@@ -10160,7 +10171,7 @@ class block_layer {
                     if (!some.find(*this, hash, dy, static_cast<std::uint32_t>(column), first + count - column))
                         continue;
                     for (int k = 0; k < N; ++k)
-                        if (some.is_crossed[k] != 0) draw<N>(part, values, column + k, block(*this, some, k));
+                        if (some.is_crossed[k] != 0) raise_to_block<N>(part, values, column + k, block(*this, some, k));
                 }
             });
         }
@@ -10275,7 +10286,7 @@ class block_layer {
     };
 
     template <int N>
-    INSONIFY_INLINE void draw(const stretch& part, float* values, std::int64_t column, const block& b) const {
+    INSONIFY_INLINE void raise_to_block(const stretch& part, float* values, std::int64_t column, const block& b) const {
         const double from = static_cast<double>(column) - lattice_.offset_x, cell = 1 / lattice_.frequency;
         const double middle = from + static_cast<double>(b.x), reach = static_cast<double>(b.chord);
         const stretch::range reached = part.within((middle - reach) * cell, (middle + reach) * cell);
@@ -10399,7 +10410,7 @@ class rock_sampler {
         detail::stretch_values weights{}, tops;
         float amplitude = 1;
         for (const detail::gradient_noise& octave : outcrops_) {
-            octave.template add<N>(part, amplitude * octave.carried_by(part), weights.data());
+            octave.template add<N>(part, amplitude * octave.band_gain_on(part), weights.data());
             amplitude *= 0.5f;
         }
         for (std::size_t i = 0; i < part.whole(); i += N) {
@@ -10416,8 +10427,8 @@ class rock_sampler {
             store(&weights[i], step);
         }
         for (const detail::block_layer& layer : blocks_) {
-            const float kept = layer.carried_by(part);
-            if (kept == 0) break;  // smaller blocks are not carried either
+            const float band_gain = layer.band_gain_on(part);
+            if (band_gain == 0) break;  // smaller blocks are not resolved either
             tops.fill(0);
             layer.template raise<N>(part, tops.data());
             for (std::size_t i = 0; i < part.whole(); i += N) {
@@ -10425,7 +10436,7 @@ class rock_sampler {
                 load(top, &tops[i]);
                 load(weight, &weights[i]);
                 load(height, heights + i);
-                height = height + kept * (weight * top);
+                height = height + band_gain * (weight * top);
                 store(heights + i, height);
             }
         }
@@ -10469,9 +10480,9 @@ inline namespace INSONIFY_FLAGS {
 /// A sediment by its name in the table.
 /// @throws invalid_input for a name that isn't there
 inline sediment sediment_of(std::string_view name) {
-    for (const sediment_facts& s : sediments)
+    for (const sediment_parameters& s : sediments)
         if (s.name == name) return static_cast<sediment>(s.label);
-    insonify::detail::raise(
+    insonify::detail::throw_error(
         invalid_input("sediment \"" + std::string(name) + "\" is unknown, expected a name of seabed::sediments"));
 }
 
@@ -10480,15 +10491,15 @@ inline sediment sediment_of(std::string_view name) {
 /// @throws invalid_input for a grain size that isn't finite
 inline sediment sediment_of_phi(float phi) {
     detail::require(numeric::is_finite(phi), "phi", phi, "a finite grain size");
-    const sediment_facts* best = sediments;
-    for (const sediment_facts& s : sediments)
+    const sediment_parameters* best = sediments;
+    for (const sediment_parameters& s : sediments)
         if (numeric::abs(s.phi - phi) < numeric::abs(best->phi - phi)) best = &s;
     return static_cast<sediment>(best->label);
 }
 
 /// The power-law roughness of a sediment: relief that is four times as long as a metre is 4^0.625 times as high.
 inline roughness roughness_of(sediment s) {
-    return {.rms = 2.3784f * facts_of(s).rms(), .longest = 4, .shortest = 0.06f};
+    return {.rms = 2.3784f * parameters_of(s).rms(), .longest = 4, .shortest = 0.06f};
 }
 
 /// The seabed that a sediment makes, with its label: outcrops and boulders of rock, cobbles, level sand, soft mud. A
@@ -10496,7 +10507,7 @@ inline roughness roughness_of(sediment s) {
 template <std::same_as<sediment> Sediment>
 any bottom_of(Sediment s, std::uint64_t seed = 1) {
     const roughness surface = roughness_of(s);
-    const sediment_form& form = facts_of(s).form;
+    const sediment_form& form = parameters_of(s).form;
     const type kind = type_of(s);
     if (form.kind == sediment_form::soft) return mud{.surface = surface, .seed = seed, .kind = kind};
     if (form.kind == sediment_form::level) return flat{.surface = surface, .seed = seed, .kind = kind};
@@ -10645,12 +10656,13 @@ namespace shadow {
 /// Stands for no caster, no mesh or no triangle.
 inline constexpr std::uint32_t invalid_id = 0xFFFFFFFFu;
 
-/// Triangles of a caster that a test may skip, because others block the same points. Points of the caster itself that
-/// face away from the light (points::face_light) are tested against all of its triangles.
+/// Triangles of a caster that a test may skip without changing the result: every ray that one of them blocks is blocked
+/// by another, too. Points of the caster itself that face away from the light (points::face_light) are tested against
+/// all of its triangles.
 enum class skip {
-    nothing,         ///< both sides of all triangles block
-    facing,          ///< front faces towards the light: the mesh is closed, and no point lies inside
-    facing_its_own,  ///< the same, for points on the caster itself: a heightfield, lit and seen from above
+    nothing,      ///< both sides of all triangles block
+    facing,       ///< front faces towards the light: the mesh is closed, and no point lies inside
+    facing_self,  ///< the same, for points on the caster itself: a heightfield, lit and seen from above
 };
 
 /// A mesh that blocks light, in the frame in which the light is described. Both sides of its triangles block.
@@ -10926,12 +10938,12 @@ enum class display_scale { power, amplitude, decibels };
 
 }  // namespace INSONIFY_FLAGS
 
-/// A contrast stretch by the picture's own percentiles, like "auto" in survey software: about a fraction `black` of the
-/// finite pixels is black, and about a fraction `white` of them white. NaN is black, infinity white.
+/// A contrast stretch by the picture's own percentiles, like "auto" in survey software: about `black_fraction` of the
+/// finite pixels is black, and about `white_fraction` white. NaN is black, infinity white.
 struct automatic_display {
     display_scale scale = display_scale::amplitude;
-    float black = 0.01f;  ///< fraction of the pixels, 0 to 0.49
-    float white = 0.01f;  ///< fraction of the pixels, 0 to 0.49
+    float black_fraction = 0.01f;  ///< fraction of the pixels, 0 to 0.49
+    float white_fraction = 0.01f;  ///< fraction of the pixels, 0 to 0.49
 
     using is_filter = std::true_type;
 
@@ -10940,8 +10952,8 @@ struct automatic_display {
         detail::require(
             scale == display_scale::power || scale == display_scale::amplitude || scale == display_scale::decibels,
             "automatic_display.scale", static_cast<int>(scale), "power, amplitude or decibels");
-        detail::require_range("automatic_display.black", black, 0, 0.49f, "0 to 0.49");
-        detail::require_range("automatic_display.white", white, 0, 0.49f, "0 to 0.49");
+        detail::require_range("automatic_display.black_fraction", black_fraction, 0, 0.49f, "0 to 0.49");
+        detail::require_range("automatic_display.white_fraction", white_fraction, 0, 0.49f, "0 to 0.49");
         detail::dynamic_array<float> values;
         values.reserve(picture.size());
         for (int y = 0; y < picture.height(); ++y)
@@ -10955,7 +10967,8 @@ struct automatic_display {
         };
         double low = 0, high = 1;
         if (!values.empty())
-            low = quantile(static_cast<double>(black)), high = quantile(1 - static_cast<double>(white));
+            low = quantile(static_cast<double>(black_fraction)),
+            high = quantile(1 - static_cast<double>(white_fraction));
         return [low, step = high > low ? 1 / (high - low) : 0.0, as = scale]<std::same_as<float> Pixel>(
                    Pixel intensity, int, int) -> Pixel {
             const double above = measure(static_cast<double>(intensity), as) - low;
@@ -11026,7 +11039,7 @@ inline namespace INSONIFY_FLAGS {
 /// `lambert_backscatter` to compute levels. This is absolute; `scene.bottom` and `type_properties` are relative to a
 /// bright target: there medium sand, 0.032 here, has 0.45, `properties_of(type_of(s)).reflectivity`.
 constexpr material surface_of(sediment s) {
-    return {seabed::facts_of(s).strength_at_nadir()};
+    return {seabed::parameters_of(s).strength_at_nadir()};
 }
 
 /// Materials by label.
@@ -11138,8 +11151,8 @@ INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s) {
         detail::require(t.reflectivity >= 0 && numeric::is_finite(t.reflectivity), "type_properties.reflectivity",
                         t.reflectivity, "0 or more, finite");
         const std::size_t label = insonify::seabed::index_of(t.label);
-        detail::require(label >= insonify::seabed::first_own_label || t == insonify::seabed::properties_of(t.label),
-                        "type_properties.label", label, "own_type(n), as its properties are not the library's");
+        detail::require(label >= insonify::seabed::first_user_label || t == insonify::seabed::properties_of(t.label),
+                        "type_properties.label", label, "user_type(n), as its properties are not the library's");
         material& m = all[label];
         if (m.reflectivity == by_seabed_model) m = {t.reflectivity};
     }
@@ -11198,12 +11211,12 @@ struct target_label {
 /// One value per pixel of the picture in each image, and a list of the targets.
 struct labels {
     static constexpr std::uint16_t no_instance = 0;     ///< seabed, or neither seabed nor target
-    static constexpr std::uint16_t is_lit = 0;          ///< at least half of the light, or that of its centre, arrives
+    static constexpr std::uint16_t no_shadow = 0;       ///< at least half of the light, or that of its centre, arrives
     static constexpr std::uint16_t by_seabed = 0xFFFF;  ///< in the shadow of the seabed
     static constexpr std::uint8_t no_seabed = 0xFF;     ///< a target, or neither
 
     image<std::uint16_t> instance;  ///< 1 for the scene's first target, 2 for the second, ...
-    image<std::uint16_t> shadow;    ///< is_lit, by_seabed, or the instance that casts the shadow
+    image<std::uint16_t> shadow;    ///< no_shadow, by_seabed, or the instance that casts the shadow
     image<std::uint8_t> seabed;     ///< a seabed::type, or no_seabed
     std::vector<target_label> targets;
     std::vector<insonify::seabed::type_properties> legend;  ///< of the values of `seabed`
@@ -11217,7 +11230,7 @@ struct labels {
     template <executor_argument Executor = serial_executor>
     INSONIFY_MEMBER labels(int width, int height, Executor&& ex = serial_executor{})
         : instance(detail::filled(width, height, no_instance, ex)),
-          shadow(detail::filled(width, height, is_lit, ex)),
+          shadow(detail::filled(width, height, no_shadow, ex)),
           seabed(detail::filled(width, height, no_seabed, ex)) {}
     /// Lists the scene's targets and legend; no pixel is labelled yet.
     template <executor_argument Executor = serial_executor>
@@ -11292,7 +11305,7 @@ INSONIFY_FUNCTION image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t
     image<std::uint8_t> mask(l.shadow.width(), l.shadow.height());
     const auto is_shown = [&](std::size_t i) {
         if (l.instance.pixels()[i] != labels::no_instance || l.shadow.pixels()[i] != instance) return false;
-        return instance != labels::is_lit || l.seabed.pixels()[i] != labels::no_seabed;
+        return instance != labels::no_shadow || l.seabed.pixels()[i] != labels::no_seabed;
     };
     for (std::size_t i = 0; i < mask.size(); ++i) mask.pixels()[i] = is_shown(i) ? 255 : 0;
     return mask;
@@ -11329,7 +11342,7 @@ INSONIFY_FUNCTION void measure_targets(labels& l) {
                 detail::require_listed(l, "labels.instance", instance);
                 target_label& t = l.targets[instance - 1u];
                 include(t.box, t.area, x, y);
-            } else if (shadow != labels::is_lit && shadow != labels::by_seabed) {
+            } else if (shadow != labels::no_shadow && shadow != labels::by_seabed) {
                 detail::require_listed(l, "labels.shadow", shadow);
                 target_label& t = l.targets[shadow - 1u];
                 include(t.shadow_box, t.shadow_area, x, y);
@@ -11388,8 +11401,9 @@ inline void validate(const ping& p, std::string_view name = "ping") {
 /// One channel of a side-scan sonar on a straight, level track: `side_scan` for slant range, `ground_range` for ground
 /// range.
 ///
-/// A picture has a row per ping and a column per bin. Row i is ping i, the first on top (`upside_down` flips it so that
-/// up is forward). The left column is the first bin on either side, so that range grows and shadows fall to the right.
+/// A picture has a row per ping and a column per bin. Row i is ping i, the first on top (`flipped_vertically` flips it
+/// so that up is forward). The left column is the first bin on either side, so that range grows and shadows fall to the
+/// right.
 template <across_track Axis>
 struct side_scan_rig {
     static constexpr across_track axis = Axis;
@@ -11495,13 +11509,13 @@ class ping_frame {
     /// Horizontal world coordinates of the fan's point (x, down).
     glm::dvec2 below(double x, double down) const { return world(x, down * sine_pitch_); }
     /// (x, u, z) of a world vector.
-    glm::dvec3 turned(const glm::dvec3& v) const {
+    glm::dvec3 direction(const glm::dvec3& v) const {
         const double ahead = v.x * along_.x + v.y * along_.y;
         return {v.x * across_.x + v.y * across_.y, ahead * cosine_pitch_ + v.z * sine_pitch_,
                 v.z * cosine_pitch_ - ahead * sine_pitch_};
     }
     /// (x, u, z) of a world position.
-    glm::dvec3 operator()(const glm::dvec3& world) const { return turned(world - position_); }
+    glm::dvec3 operator()(const glm::dvec3& world) const { return direction(world - position_); }
 
   private:
     glm::dvec3 position_;
@@ -11598,7 +11612,7 @@ struct overhead {
     float grazing = static_cast<float>(numeric::pi / 30);  ///< of the light on level ground, radians
     float light_azimuth = 0;  ///< direction of travel of the light, from image right towards image up, radians
     /// Distance of the light from the datum below the camera, where grazing and azimuth apply, metres. Rays of an
-    /// infinitely distant light are parallel. Near lights need `shadow::exact` or `penumbra`, and have no falloff.
+    /// infinitely distant light are parallel. Point lights need `shadow::exact` or `penumbra`, and have no falloff.
     float light_distance = std::numeric_limits<float>::infinity();
     float intensity = 4;  ///< of the light on a surface that faces it
     float sky = 0.05f;    ///< light from the upper hemisphere, without shadows
@@ -11644,17 +11658,17 @@ class overhead_geometry {
 
     const overhead& rig() const { return rig_; }
     const shadow::light_frame& light() const { return light_; }
-    bool has_near_light() const { return numeric::is_finite(rig_.light_distance); }
-    /// Position of a near light.
+    bool has_point_light() const { return numeric::is_finite(rig_.light_distance); }
+    /// Position of a point light.
     glm::dvec3 light_position() const { return static_cast<double>(rig_.light_distance) * light_.to_light(); }
     /// The light in the rig's frame, for shadow policies.
     shadow::any_light light_source() const {
-        if (has_near_light()) return shadow::point_light{light_position()};
+        if (has_point_light()) return shadow::point_light{light_position()};
         return shadow::directional_light{numeric::widened(rig_.light_azimuth), numeric::widened(rig_.grazing)};
     }
     /// The light along the world's axes, relative to the rig's position.
     shadow::any_light world_light() const {
-        if (has_near_light())
+        if (has_point_light())
             return shadow::point_light{numeric::product(glm::transpose(rig_from_world_.linear), light_position())};
         return shadow::directional_light{numeric::widened(rig_.light_azimuth) + numeric::widened(rig_.yaw),
                                          numeric::widened(rig_.grazing)};
@@ -11732,7 +11746,7 @@ class overhead_geometry {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/overhead/picture.hpp -------------------------------------------------------
-// Overhead pictures: their options, and the functions that draw them. The painter is in render.hpp.
+// Overhead pictures: their options, and the functions that draw them. The renderer is in render.hpp.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -11790,12 +11804,12 @@ namespace detail::inline INSONIFY_FLAGS {
 
 // Defined in render.hpp.
 template <class Shadow, class Labels, class Law, depth_precision Depth>
-class overhead_painter;
+class overhead_renderer;
 
 template <class Shadow, class Labels, class Law, depth_precision Depth>
-auto painter_of(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
-                executor_ref ex) {
-    using painter = overhead_painter<Shadow, Labels, Law, Depth>;
+auto renderer_of(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
+                 executor_ref ex) {
+    using painter = overhead_renderer<Shadow, Labels, Law, Depth>;
     static_assert(
         requires { sizeof(painter); },
         "a shadow policy, law or depth other than the built-in ones needs #include "
@@ -11804,14 +11818,14 @@ auto painter_of(const scene& s, const overhead& rig, const render_options<Shadow
 }
 
 template <class Shadow, class Labels, class Law, depth_precision Depth>
-frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
-                    executor_ref ex) {
-    return painter_of(s, rig, options, ex).paint(ex);
+frame<Labels> render_frame(const scene& s, const overhead& rig,
+                           const render_options<Shadow, Labels, Law, Depth>& options, executor_ref ex) {
+    return renderer_of(s, rig, options, ex).render_frame(ex);
 }
 template <class Law, depth_precision Depth>
-visibility see(const scene& s, const overhead& rig, const render_options<shadow::none, labels, Law, Depth>& options,
-               executor_ref ex) {
-    return painter_of(s, rig, options, ex).see(ex);
+visibility render_visibility(const scene& s, const overhead& rig,
+                             const render_options<shadow::none, labels, Law, Depth>& options, executor_ref ex) {
+    return renderer_of(s, rig, options, ex).render_visibility(ex);
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -11825,10 +11839,11 @@ using built_in = const render_options<Shadow, Labels>&;
 #define INSONIFY_PICTURES(each) \
     each(shadow::exact, labels) each(shadow::none, labels) each(shadow::exact, no_labels) each(shadow::none, no_labels)
 #define INSONIFY_PICTURE(Shadow, Labels) \
-    frame<Labels> paint(const scene& s, const overhead& rig, built_in<Shadow, Labels> options, executor_ref ex);
+    frame<Labels> render_frame(const scene& s, const overhead& rig, built_in<Shadow, Labels> options, executor_ref ex);
 INSONIFY_PICTURES(INSONIFY_PICTURE)
 #undef INSONIFY_PICTURE
-visibility see(const scene& s, const overhead& rig, built_in<shadow::none, labels> options, executor_ref ex);
+visibility render_visibility(const scene& s, const overhead& rig, built_in<shadow::none, labels> options,
+                             executor_ref ex);
 
 }  // namespace detail::inline INSONIFY_ONCE
 #endif
@@ -11847,7 +11862,7 @@ template <class Shadow = shadow::exact, class Labels = labels, backscatter_law L
           depth_precision Depth = depth_precision::quick, executor_argument E = serial_executor>
 frame<Labels> render(const scene& s, const overhead& rig,
                      const render_options<Shadow, Labels, Law, Depth>& options = {}, E&& ex = {}) {
-    return detail::paint(s, rig, options, executor_ref(ex));
+    return detail::render_frame(s, rig, options, executor_ref(ex));
 }
 
 /// The triangles that `render` shows with the same options.
@@ -11862,7 +11877,7 @@ visibility visible_triangles(const scene& s, const overhead& rig,
                                                                 .subpixel_bits = options.subpixel_bits,
                                                                 .tile = options.tile,
                                                                 .level = options.level};
-    return detail::see(s, rig, seen, executor_ref(ex));
+    return detail::render_visibility(s, rig, seen, executor_ref(ex));
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -11941,9 +11956,9 @@ INSONIFY_ARITHMETIC_END
 // Sorts triangles into tiles, in submission order.
 //
 // Triangles are binned in chunks, in parallel. Triangles adjacent in a mesh are mostly adjacent on the screen, so a
-// chunk stores runs: consecutive triangles that touch the same tiles. Counting the runs of every chunk and tile gives
-// each its position, and a second parallel pass copies them there: an order-preserving counting sort, whose result does
-// not depend on which thread ran which chunk.
+// chunk stores runs: consecutive triangles that touch the same tiles. A prefix sum over the run
+// counts of every tile and chunk gives each run its position, and a second parallel pass copies them there: an
+// order-preserving counting sort, whose result does not depend on which thread ran which chunk.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -12368,16 +12383,16 @@ struct pixel_grid {
     }
 };
 
-/// run * down - rise * right: positive on the inner side of an edge of a clockwise triangle. Compact differences stay
-/// within 2^30, so 64 bits hold the result.
-inline std::int64_t compact_side(std::int64_t run, std::int64_t rise, std::int64_t right, std::int64_t down) {
-    return run * down - rise * right;
+/// edge_x * down - edge_y * right: positive on the inner side of an edge of a clockwise triangle. Compact differences
+/// stay within 2^30, so 64 bits hold the result.
+inline std::int64_t compact_side(std::int64_t edge_x, std::int64_t edge_y, std::int64_t right, std::int64_t down) {
+    return edge_x * down - edge_y * right;
 }
-inline int128 wide_side(std::int64_t run, std::int64_t rise, std::int64_t right, std::int64_t down) {
-    return int128::product(run, down) - int128::product(rise, right);
+inline int128 wide_side(std::int64_t edge_x, std::int64_t edge_y, std::int64_t right, std::int64_t down) {
+    return int128::product(edge_x, down) - int128::product(edge_y, right);
 }
 
-/// Twice the signed area in squared fixed-point units; positive for triangles that run clockwise on the screen.
+/// Twice the signed area in squared fixed-point units; positive for triangles that edge_x clockwise on the screen.
 inline std::int64_t compact_area(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c) {
     return compact_side(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
 }
@@ -12407,13 +12422,15 @@ struct edge_function {
     /// The edge from a to b of a clockwise triangle, for the pixels right of and below (x, y).
     static edge_function through(const screen_vertex& a, const screen_vertex& b, const pixel_grid& grid, int x, int y,
                                  bool compact) {
-        const std::int64_t run = b.x - a.x, rise = b.y - a.y;
+        const std::int64_t edge_x = b.x - a.x, edge_y = b.y - a.y;
         const std::int64_t right = grid.centre(x) - a.x, down = grid.centre(y) - a.y;
-        const bool top_left = rise < 0 || (rise == 0 && run > 0);
+        const bool top_left = edge_y < 0 || (edge_y == 0 && edge_x > 0);
         const std::int64_t inner = top_left ? 0 : -1;
         // A pixel is 2^s units wide, so E changes by multiples of 2^s and its sign survives the shift.
-        if (compact) return {(compact_side(run, rise, right, down) + inner) >> grid.subpixel_bits, -rise, run};
-        return {(wide_side(run, rise, right, down) + int128::from(inner)).shifted_down(grid.subpixel_bits), -rise, run};
+        if (compact)
+            return {(compact_side(edge_x, edge_y, right, down) + inner) >> grid.subpixel_bits, -edge_y, edge_x};
+        return {(wide_side(edge_x, edge_y, right, down) + int128::from(inner)).shifted_down(grid.subpixel_bits),
+                -edge_y, edge_x};
     }
 
     /// Whether E fits 32 bits everywhere in a rectangle of that size.
@@ -12428,10 +12445,10 @@ struct edge_function {
     edge_function simplified(int width, int height) const {
         const std::int64_t across = dx * (width - 1), along = dy * (height - 1);
         constexpr std::int64_t none = 0;
-        const std::int64_t falls = (std::min)(across, none) + (std::min)(along, none);
-        const std::int64_t rises = (std::max)(across, none) + (std::max)(along, none);
-        if (origin >= -falls) return {0, 0, 0};
-        if (origin < -rises) return {-1, 0, 0};
+        const std::int64_t lowest = (std::min)(across, none) + (std::min)(along, none);
+        const std::int64_t highest = (std::max)(across, none) + (std::max)(along, none);
+        if (origin >= -lowest) return {0, 0, 0};
+        if (origin < -highest) return {-1, 0, 0};
         return *this;
     }
 };
@@ -12448,7 +12465,7 @@ struct depth_plane {
                                const pixel_grid& grid) {
         const auto unit = static_cast<double>(grid.unit()), pixel = 1 / unit;
         const double scale = unit / area;
-        const double b_rise = b.z - a.z, c_rise = c.z - a.z;
+        const double b_dz = b.z - a.z, c_dz = c.z - a.z;
         const auto bx = static_cast<double>(b.x - a.x), by = static_cast<double>(b.y - a.y);
         const auto cx = static_cast<double>(c.x - a.x), cy = static_cast<double>(c.y - a.y);
         const auto [lowest, highest] = std::minmax({a.z, b.z, c.z});
@@ -12456,8 +12473,8 @@ struct depth_plane {
         plane.x = static_cast<double>(a.x - grid.half()) * pixel;
         plane.y = static_cast<double>(a.y - grid.half()) * pixel;
         plane.z = a.z;
-        plane.dx = scale * (b_rise * cy - c_rise * by);
-        plane.dy = scale * (c_rise * bx - b_rise * cx);
+        plane.dx = scale * (b_dz * cy - c_dz * by);
+        plane.dy = scale * (c_dz * bx - b_dz * cx);
         plane.lowest = static_cast<float>(lowest);
         plane.highest = static_cast<float>(highest);
 
@@ -12486,7 +12503,7 @@ inline float rounded_depth(const screen_vertex& a, const screen_vertex& b, const
     return (sum / wide(weights[0] + weights[1] + weights[2])).to_float();
 }
 
-/// A triangle of any size, ready for the pixels of a rectangle. The vertices run clockwise on the screen; edges are
+/// A triangle of any size, ready for the pixels of a rectangle. The vertices edge_x clockwise on the screen; edges are
 /// named by their ends.
 struct triangle_setup {
     edge_function bc, ca, ab;
@@ -12571,7 +12588,7 @@ class projection {
     /// @param exact  whether to divide by w rather than multiply by 1 / w, which may be off in the last bit. Exact
     ///               positions are the nearest on the grid up to 2^27 sub-pixels from its centre, and within 2^-52 of
     ///               the distance beyond that
-    projection(const pixel_grid& grid, keep_depth keep, bool exact)
+    projection(const pixel_grid& grid, depth_compare compare, bool exact)
         : grid_(grid),
           half_width_(0.5 * grid.width),
           half_height_(0.5 * grid.height),
@@ -12581,7 +12598,7 @@ class projection {
           widest_y_(grid.reach(pixel_grid::widest_bits) / half_height_),
           right_(grid, grid.width, half_width_),
           down_(grid, grid.height, -half_height_),
-          sign_(keep == keep_depth::smaller ? 1.0 : -1.0),
+          sign_(compare == depth_compare::less ? 1.0 : -1.0),
           exact_(exact) {}
 
     /// Distance to a clipping plane in clip space, >= 0 inside. The first plane keeps w away from zero.
@@ -12670,7 +12687,7 @@ class projection {
         std::memcpy(&into, &bits, sizeof into);
     }
 
-    /// Clamps a corner that rounding left outside of a plane, which next to the eye may be far outside. The result
+    /// Clamps a corner that rounding left outside of a plane; close to the camera the error may be large. The result
     /// depends on the position alone, so that adjacent triangles keep their shared corner.
     void move_inside(glm::dvec4& p) const {
         p.w = (std::max)(p.w, smallest_w);
@@ -12701,7 +12718,7 @@ class projection {
     }
 
     /// Where the edge between two corners on either side of a plane meets it. Both weights are positive, so that a
-    /// crossing next to the eye does not cancel out against a distant end. Exchanging the corners changes no bit.
+    /// crossing close to the camera loses no digits to a distant end. Exchanging the corners changes no bit.
     static clip_corner crossing(const clip_corner& a, double d_a, const clip_corner& b, double d_b) {
         const double weight_a = d_b / (d_b - d_a), weight_b = d_a / (d_a - d_b);
         return {weight_a * a.position + weight_b * b.position, weight_a * a.weights + weight_b * b.weights};
@@ -12758,7 +12775,7 @@ class screen_polygon {
         for (int i = 1; i + 1 < count_; ++i) {
             const int128 part = wide_area(at(0), at(i), at(i + 1));
             area = area + part;
-            turns_[part.sign() + 1] = true;
+            has_orientation_[part.sign() + 1] = true;
         }
         area_sign_ = area.sign();
         // The largest part that is oriented like the whole polygon.
@@ -12789,7 +12806,7 @@ class screen_polygon {
     /// if it is folded, spans of covered pixels in the plane of three of its corners.
     template <class Part>
     void for_each_part(const pixel_grid& grid, const Part& part) const {
-        if (turns_[0] && turns_[2]) return for_each_span(grid, part);
+        if (has_orientation_[0] && has_orientation_[2]) return for_each_span(grid, part);
         for (int i = 1; i + 1 < count_; ++i) {
             const rect pixels = centre_rect(at(0), at(i), at(i + 1), grid);
             if (!pixels.empty() && wide_area(at(0), at(i), at(i + 1)).sign() != 0)
@@ -12848,7 +12865,7 @@ class screen_polygon {
 
     std::array<screen_vertex, 3 + clip_polygon::planes> corners_;
     int count_;
-    bool turns_[3] = {};  ///< whether a part runs counter-clockwise, is degenerate, runs clockwise
+    bool has_orientation_[3] = {};  ///< whether a part runs counter-clockwise, is degenerate, runs clockwise
     int128 largest_{};
     int largest_part_ = 1;
     int area_sign_ = 0;
@@ -12900,8 +12917,9 @@ template <int N>
 struct drawn_area {
     using ints = lanes<std::int32_t, N>;
     rect_lanes<N> pixels;
-    ints half, before;  ///< half a pixel in sub-pixels, and one sub-pixel less
-    int bits;           ///< of sub-pixels
+    ints half;    ///< half a pixel in sub-pixels
+    ints before;  ///< one sub-pixel less
+    int bits;     ///< of sub-pixels
 
     INSONIFY_INLINE drawn_area(const pixel_grid& grid, const rect& r)
         : pixels{ints{} + r.x0, ints{} + r.y0, ints{} + r.x1, ints{} + r.y1},
@@ -13004,12 +13022,12 @@ struct small_setup {
   private:
     INSONIFY_INLINE static void edge(edge_lanes& e, const ints& from_x, const ints& from_y, const ints& to_x,
                                      const ints& to_y, const ints& x, const ints& y, int bits) {
-        const ints run = to_x - from_x, rise = to_y - from_y, none = ints{};
-        const ints top_left = ints((rise < none) | ((rise == none) & (run > none)));
+        const ints edge_x = to_x - from_x, edge_y = to_y - from_y, none = ints{};
+        const ints top_left = ints((edge_y < none) | ((edge_y == none) & (edge_x > none)));
         const ints inner = top_left ? none : none - 1;
-        store(e.origin, ints((run * (y - from_y) - rise * (x - from_x) + inner) >> bits));
-        store(e.dx, ints(none - rise));
-        store(e.dy, run);
+        store(e.origin, ints((edge_x * (y - from_y) - edge_y * (x - from_x) + inner) >> bits));
+        store(e.dx, ints(none - edge_y));
+        store(e.dy, edge_x);
     }
 };
 
@@ -13036,10 +13054,10 @@ struct small_planes {
         convert(cy, t.cy - t.ay);
         convert(scale, area);
         scale = Real{1} / scale;
-        const reals b_rise = bz - az, c_rise = cz - az;
+        const reals b_dz = bz - az, c_dz = cz - az;
         store(z, az);
-        store(dx, reals(scale * (b_rise * cy - c_rise * by)));
-        store(dy, reals(scale * (c_rise * bx - b_rise * cx)));
+        store(dx, reals(scale * (b_dz * cy - c_dz * by)));
+        store(dy, reals(scale * (c_dz * bx - b_dz * cx)));
 
         reals low = az < bz ? az : bz, high = az > bz ? az : bz;
         low = low < cz ? low : cz;
@@ -13173,7 +13191,7 @@ struct vertex {
 
 /// Output of a vertex shader that has varyings. The view volume is -w <= x <= w, -w <= y <= w (y up), 0 <= z <= w.
 template <class Varyings>
-struct placed_vertex {
+struct vertex_output {
     glm::vec4 clip;
     Varyings varyings;  ///< interpolated between the vertices for fragment shaders
 };
@@ -13183,7 +13201,7 @@ template <class S>
 concept position_shader = requires(const S& shader, const vertex& v) {
     { shader(v) } -> std::convertible_to<glm::vec4>;
 };
-/// `shader(vertex)` returns a placed_vertex, or a type of the caller's with the same members.
+/// `shader(vertex)` returns a vertex_output, or a type of the caller's with the same members.
 template <class S>
 concept varying_shader = requires(const S& shader, const vertex& v) {
     { shader(v).clip } -> std::convertible_to<glm::vec4>;
@@ -13530,11 +13548,11 @@ struct screen_triangle {
     /// Perspective-correct barycentric weights of the mesh triangle's vertices at a pixel's centre.
     glm::dvec3 weights_at(int x, int y, const pixel_grid& grid) const {
         const auto opposite = [&](const screen_vertex& from, const screen_vertex& to) {
-            const std::int64_t run = to.x - from.x, rise = to.y - from.y;
+            const std::int64_t edge_x = to.x - from.x, edge_y = to.y - from.y;
             const std::int64_t right = grid.centre(x) - from.x, down = grid.centre(y) - from.y;
-            if (wide == nullptr) return static_cast<double>(compact_side(run, rise, right, down));
+            if (wide == nullptr) return static_cast<double>(compact_side(edge_x, edge_y, right, down));
             // Pixels of a span may lie just outside of the corners, where a weight would be negative.
-            const double weight = double_double::from(wide_side(run, rise, right, down)).high;
+            const double weight = double_double::from(wide_side(edge_x, edge_y, right, down)).high;
             return weight > 0 ? weight : 0.0;
         };
         const double wa = opposite(b, c) * a.inverse_w;
@@ -13593,7 +13611,7 @@ class screen_mesh {
         : mesh_(m),
           compact_count_(static_cast<std::uint32_t>(m.triangles.size())),
           grid_(grid),
-          projection_(grid, options.keep, std::is_same_v<Real, double>),
+          projection_(grid, options.compare, std::is_same_v<Real, double>),
           cull_(options.cull),
           vertices_(m.positions.size(), has_weights && std::is_same_v<Real, double>, memory_of(ex)) {
         bulk_ranges(ex, m.positions.size(), 8192, [&](std::size_t first, std::size_t last) {
@@ -13791,11 +13809,12 @@ struct assembly_kernel {
         const int size = tiles.log2_size;  // see tile_range::pack
         const ints first_tile = ints((pixels.x0 >> size) | (pixels.y0 >> size << 16)),
                    last_tile = ints(((pixels.x1 - 1) >> size) | ((pixels.y1 - 1) >> size << 16));
-        const unsigned degenerate = movemask<N>(ints(area == 0)) & ~outside, turned = movemask<N>(culled) & ~outside,
-                       drawn = all & ~(movemask<N>(empty) | degenerate | turned);
+        const unsigned degenerate = movemask<N>(ints(area == 0)) & ~outside,
+                       culled_mask = movemask<N>(culled) & ~outside,
+                       drawn = all & ~(movemask<N>(empty) | degenerate | culled_mask);
         if ((movemask<N>(sliver) & drawn) != 0) return false;
         out.stats.degenerate += static_cast<unsigned>(std::popcount(degenerate));
-        out.stats.culled += static_cast<unsigned>(std::popcount(turned));
+        out.stats.culled += static_cast<unsigned>(std::popcount(culled_mask));
         out.stats.drawn += static_cast<unsigned>(std::popcount(drawn));
         // All of them usually touch the same tiles.
         const std::int32_t one_first = lane(first_tile, 0), one_last = lane(last_tile, 0);
@@ -14074,18 +14093,18 @@ struct small_fill {
         floats lowest, highest;
         load(lowest, planes.lowest), load(highest, planes.highest);
         const ints last_column = width - 1, last_row = height - 1;
-        reals rise[static_cast<unsigned>(side)];
+        reals z_across[static_cast<unsigned>(side)];
         unroll<side>([&](int column) INSONIFY_INLINE_LAMBDA {
-            convert(rise[column], ints(right + column * unit));
-            rise[column] = rise[column] * dx;
+            convert(z_across[column], ints(right + column * unit));
+            z_across[column] = z_across[column] * dx;
         });
 
         block_pixels found;
         unroll<side>([&](int row) INSONIFY_INLINE_LAMBDA {
             ints bc_x = bc, ca_x = ca, ab_x = ab;
-            reals drop;
-            convert(drop, ints(down + row * unit));
-            drop = z_a + dy * drop;
+            reals z_down;
+            convert(z_down, ints(down + row * unit));
+            z_down = z_a + dy * z_down;
             unroll<side>([&](int column) INSONIFY_INLINE_LAMBDA {
                 const int pixel = row * block + column;
                 const std::int32_t mask = 1 << pixel;
@@ -14094,7 +14113,7 @@ struct small_fill {
                 found.covered |= outside >= 0 ? bit : ints{};
                 floats z;
                 ints ambiguous = ints{};
-                round(z, ambiguous, rise[column] + drop, error);
+                round(z, ambiguous, z_across[column] + z_down, error);
                 if constexpr (exact) found.ambiguous |= ambiguous ? bit : ints{};
                 z = z > lowest ? z : lowest;
                 z = z < highest ? z : highest;
@@ -14177,9 +14196,9 @@ struct small_fill {
         ints ca = t.ca.origin[k] + at * t.ca.dx[k];
         ints ab = t.ab.origin[k] + at * t.ab.dx[k];
         const ints bc_dy = ints{} + t.bc.dy[k], ca_dy = ints{} + t.ca.dy[k], ab_dy = ints{} + t.ab.dy[k];
-        reals rise, error{};
-        convert(rise, ints(at * unit + t.right[k]));
-        rise = rise * planes.dx[k];
+        reals z_across, error{};
+        convert(z_across, ints(at * unit + t.right[k]));
+        z_across = z_across * planes.dx[k];
         if constexpr (exact) error = error + planes.error[k];
         const Real z_a = planes.z[k], dy = planes.dy[k], step = static_cast<Real>(unit);
         const floats lowest = floats{} + planes.lowest[k], highest = floats{} + planes.highest[k];
@@ -14193,7 +14212,7 @@ struct small_fill {
             const ints covered = ints((bc | ca | ab) >= 0);
             floats z;
             ints ambiguous = ints{};
-            round(z, ambiguous, rise + (z_a + dy * down), error);
+            round(z, ambiguous, z_across + (z_a + dy * down), error);
             if constexpr (exact) {
                 ambiguous &= covered;
                 if (any(ambiguous))
@@ -14779,7 +14798,7 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& shader, image_view
     const pixel_grid grid{options.subpixel_bits, depth.width(), depth.height()};
     const tile_grid tiles(grid.width, grid.height, std::countr_zero(static_cast<unsigned>(options.tile)));
     const screen_mesh<real> screen(m, shader, grid, tiles, options, HasIds, records, ex);
-    const float sign = options.keep == keep_depth::smaller ? 1.0f : -1.0f;
+    const float sign = options.compare == depth_compare::less ? 1.0f : -1.0f;
 
     const std::size_t grain = tiles.grain();
     dynamic_array<std::uint64_t> shaded((tiles.count() + grain - 1) / grain, 0);
@@ -14820,7 +14839,7 @@ inline namespace INSONIFY_FLAGS {
 /// @returns the number of triangles by outcome, and of shaded pixels; zeros for an empty target, for which nothing is
 /// done
 /// @throws invalid_input for an index without a position, a number of normals that is neither 0 nor that of positions,
-///         or options out of range; the target is then untouched
+///         or options out of range; the target is then unchanged
 template <vertex_shader VertexShader, depth_precision Depth = depth_precision::exact,
           executor_argument E = serial_executor>
 draw_stats draw(const mesh_view& m, const VertexShader& shader, const depth_target& target,
@@ -14887,7 +14906,7 @@ template <class VertexShader, class Shader, class Pixel, class... Others>
 draw_stats draw(const mesh_view&, const VertexShader&, const Shader&, const framebuffer<Pixel>&, Others&&...) {
     static_assert(
         vertex_shader<VertexShader>,
-        "a vertex shader takes a const vertex& and returns a glm::vec4, or a placed_vertex whose varyings can "
+        "a vertex shader takes a const vertex& and returns a glm::vec4, or a vertex_output whose varyings can "
         "be interpolated: see raster/shader.hpp");
     static_assert(!vertex_shader<VertexShader>,
                   "a fragment shader takes a const fragment<Varyings>&, of the vertex shader's varyings, and returns a "
@@ -14905,7 +14924,7 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/shadow/detail/lit_grid.hpp -------------------------------------------------------
 // A regular grid re-indexed so that parallel light crosses its columns in ascending order, and the u of its vertices.
 //
-// In grid steps, all points of a ray have the same u = X + drop z, the X at which the ray meets z = 0.
+// In grid steps, all points of a ray have the same u = X + u_per_metre z, the X at which the ray meets z = 0.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -14919,7 +14938,7 @@ struct lit_grid {
     int columns = 0, rows = 0;  ///< vertices along X, and along Y
     bool is_rising = true;      ///< cells are cut from (X, Y) to (X + 1, Y + 1), or else from (X, Y + 1) to (X + 1, Y)
     double slope = 0;           ///< in [0, 1]
-    double drop = 0;            ///< columns that light crosses per metre of descent
+    double u_per_metre = 0;     ///< increase of X along a ray per metre of descent
     std::ptrdiff_t first = 0, along = 1, across = 1;  ///< index of vertex (0, 0) in the mesh, and strides
     std::ptrdiff_t pitch = 1;                         ///< vertices from one row of the mesh to the next
     std::ptrdiff_t first_cell = 0, cell_along = 1, cell_across = 1;  ///< the same for cells
@@ -14957,7 +14976,7 @@ struct lit_grid {
         turn(travel_x, columns, along, x);
         turn(travel_y, rows, across, y);
         slope = travel_x > 0 ? travel_y / travel_x : 0;
-        drop = travel_x / -travel.z;
+        u_per_metre = travel_x / -travel.z;
         x_of = glm::dvec2(y.y, -y.x) / cross(x, y);
         y_of = glm::dvec2(-x.y, x.x) / cross(x, y);
         // A row has one cell less than vertices.
@@ -14999,7 +15018,7 @@ struct grid_u {
           highest_z(bounds.upper.z) {
         // In squares of vertices, so that both reads and writes are contiguous.
         constexpr int square = 64;
-        const auto drop = static_cast<float>(grid.drop);
+        const auto u_per_metre = static_cast<float>(grid.u_per_metre);
         bulk_ranges(ex, static_cast<std::size_t>(grid.columns), square, [&](std::size_t from, std::size_t to) {
             const auto left = static_cast<int>(from), right = static_cast<int>(to);
             for (int x = left; x < right; ++x) {
@@ -15008,7 +15027,7 @@ struct grid_u {
             }
             const glm::vec3* const first = m.positions.data() + grid.first;
             const auto set = [&](int x, int y) {
-                column(x)[y] = static_cast<float>(x) + drop * first[x * grid.along + y * grid.across].z;
+                column(x)[y] = static_cast<float>(x) + u_per_metre * first[x * grid.along + y * grid.across].z;
             };
             for (int bottom = 0; bottom < grid.rows; bottom += square) {
                 const int top = (std::min)(bottom + square, grid.rows);
@@ -15191,11 +15210,11 @@ class horizon_bounds {
                    isa level, E& ex)
         : grid_(lattice, travel),
           u_(m, box, grid_, ex),
-          lattice_error_(2 * lattice.off + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
-        const double relief = grid_.drop * (u_.highest_z - u_.lowest_z);
+          lattice_error_(2 * lattice.lattice_error + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
+        const double relief = grid_.u_per_metre * (u_.highest_z - u_.lowest_z);
         const double size =
-            grid_.columns + grid_.drop * (std::max)(numeric::abs(u_.highest_z), numeric::abs(u_.lowest_z));
-        margin_ = 0x1p-21 * size + 4 * lattice.off * (2 + relief);
+            grid_.columns + grid_.u_per_metre * (std::max)(numeric::abs(u_.highest_z), numeric::abs(u_.lowest_z));
+        margin_ = 0x1p-21 * size + 4 * lattice.lattice_error * (2 + relief);
         first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
         strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;
         bounds_ = insonify::detail::uninitialized_array<float>(
@@ -15213,7 +15232,7 @@ class horizon_bounds {
     /// Decides N points.
     /// @param p  x, y and z: on the mesh, on a side that faces the light, in the mesh's frame
     template <int N>
-    INSONIFY_INLINE void decide(insonify::detail::lanes<std::int64_t, N>& answer,
+    INSONIFY_INLINE void decide(insonify::detail::lanes<std::int64_t, N>& result,
                                 const insonify::detail::lanes<double, N> (&p)[3]) const {
         using namespace insonify::detail;
         using reals = lanes<double, N>;
@@ -15223,7 +15242,7 @@ class horizon_bounds {
         const reals strip = grid_.y_of.x * dx + grid_.y_of.y * dy - grid_.slope * x - static_cast<double>(first_strip_);
         const bits exists = bits(x >= 0.0) & bits(x <= static_cast<double>(grid_.columns - 1)) &
                             bits(strip >= lattice_error_) & bits(strip < strips_ - lattice_error_);
-        const reals u = x + grid_.drop * p[2];
+        const reals u = x + grid_.u_per_metre * p[2];
         // A point close to a line of the lattice may lie in a cell beyond it.
         const reals column = exists ? x : reals{}, ahead = exists ? x + lattice_error_ : reals{};
         const reals low = exists ? strip - lattice_error_ : reals{}, high = exists ? strip + lattice_error_ : reals{};
@@ -15235,15 +15254,15 @@ class horizon_bounds {
         gather<N>(dark, [&](int k) { return static_cast<double>(bound_at(column, k).dark_below); });
         gather<N>(lit, [&](int k) { return static_cast<double>(bound_at(ahead, k).lit_above); });
         const bits is_dark = exists & bits(u < dark - margin_), is_lit = exists & bits(u > lit + margin_);
-        answer = is_lit ? bits{} + static_cast<std::int64_t>(decision::lit)
+        result = is_lit ? bits{} + static_cast<std::int64_t>(decision::lit)
                         : bits{} + static_cast<std::int64_t>(decision::undecided);
-        answer = is_dark ? bits{} + static_cast<std::int64_t>(decision::dark) : answer;
+        result = is_dark ? bits{} + static_cast<std::int64_t>(decision::dark) : result;
     }
     /// The same for one point.
     decision at(const glm::dvec3& p) const {
-        std::int64_t answer;
-        decide<1>(answer, {p.x, p.y, p.z});
-        return static_cast<decision>(answer);
+        std::int64_t result;
+        decide<1>(result, {p.x, p.y, p.z});
+        return static_cast<decision>(result);
     }
 
     const lit_grid& grid() const { return grid_; }
@@ -15302,26 +15321,26 @@ class light_plane {
                 {-frame.travel().y, frame.travel().x, 0},
                 {0, 0, 1}} {}
     /// @param face  0 to 5: along +x, -x, +y, -y, +z, -z of the light
-    light_plane(const point_light& light, int face) : origin_(light.position), is_near_(true) {
+    light_plane(const point_light& light, int face) : origin_(light.position), is_point_light_(true) {
         const int axis = face / 2;
         rows_[0][(axis + 1) % 3] = rows_[1][(axis + 2) % 3] = 1;
         rows_[2][axis] = face % 2 == 0 ? 1 : -1;
     }
 
-    bool is_near() const { return is_near_; }
+    bool is_point_light() const { return is_point_light_; }
     /// Whether triangles that are counter-clockwise from the light are clockwise on the plane.
-    bool is_mirrored() const { return is_near_ == (numeric::dot(rows_[0], numeric::cross(rows_[1], rows_[2])) > 0); }
+    bool is_mirrored() const {
+        return is_point_light_ == (numeric::dot(rows_[0], numeric::cross(rows_[1], rows_[2])) > 0);
+    }
 
-    /// (u, v, height) of a point; of a near light before the division, (u d, v d, d) with the depth d.
+    /// (u, v, height) of a point; of a point light before the division, (u d, v d, d) with the depth d.
     glm::dvec3 operator()(const glm::dvec3& p) const { return direction(p - origin_); }
     /// The same for a difference of points.
     glm::dvec3 direction(const glm::dvec3& d) const {
         return {numeric::dot(rows_[0], d), numeric::dot(rows_[1], d), numeric::dot(rows_[2], d)};
     }
     /// After the division. Heights are 1 / depth.
-    static glm::dvec3 seen(const glm::dvec3& before) {
-        return {before.x / before.z, before.y / before.z, 1 / before.z};
-    }
+    static glm::dvec3 perspective_divide(const glm::dvec3& p) { return {p.x / p.z, p.y / p.z, 1 / p.z}; }
 
     /// Number of the cube's face, seen from a point light, that a point lies over.
     static int face_of(const point_light& light, const glm::dvec3& p) {
@@ -15333,11 +15352,11 @@ class light_plane {
   private:
     glm::dvec3 rows_[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
     glm::dvec3 origin_{0};
-    bool is_near_ = false;
+    bool is_point_light_ = false;
 };
 
-/// Whether anything within a box may lie over a plane of a near light.
-inline bool is_seen(const light_plane& plane, const bounding_box& box) {
+/// Whether anything within a box may lie over a plane of a point light.
+inline bool is_visible_on(const light_plane& plane, const bounding_box& box) {
     bool outside[4] = {true, true, true, true};
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 p = plane(box.corner(i));
@@ -15346,8 +15365,8 @@ inline bool is_seen(const light_plane& plane, const bounding_box& box) {
     return !(outside[0] || outside[1] || outside[2] || outside[3]);
 }
 
-/// The part of a near light's plane that a box is over.
-inline std::pair<glm::dvec2, glm::dvec2> seen_part(const light_plane& plane, const bounding_box& box) {
+/// The part of a point light's plane that a box is over.
+inline std::pair<glm::dvec2, glm::dvec2> visible_extent(const light_plane& plane, const bounding_box& box) {
     glm::dvec2 lower(1), upper(-1);
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 p = plane(box.corner(i));
@@ -15381,9 +15400,9 @@ inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
 /// Maps points of a light's plane to where their rays meet the plane z = 0 of a mesh, in grid steps.
-class ray_feet {
+class datum_intercepts {
   public:
-    ray_feet(const light_plane& plane, const affine& placement, const lit_grid& grid) {
+    datum_intercepts(const light_plane& plane, const affine& placement, const lit_grid& grid) {
         const auto seen = [&](double x, double y) { return glm::dvec2(plane(transform_point(placement, {x, y, 0}))); };
         origin_ = seen(0, 0);
         const glm::dvec2 x = seen(1, 0) - origin_, y = seen(0, 1) - origin_;
@@ -15393,8 +15412,8 @@ class ray_feet {
         grid_ = &grid;
     }
     glm::dvec2 operator()(const glm::dvec2& at) const {
-        const glm::dvec2 off = at - origin_;
-        return grid_->steps({x_of_.x * off.x + x_of_.y * off.y, y_of_.x * off.x + y_of_.y * off.y});
+        const glm::dvec2 offset = at - origin_;
+        return grid_->steps({x_of_.x * offset.x + x_of_.y * offset.y, y_of_.x * offset.x + y_of_.y * offset.y});
     }
 
     /// Bounds of the images of a rectangle.
@@ -15422,7 +15441,7 @@ class horizon_triangles {
                       const glm::dvec3& eye)
         : horizon_(horizon), grid_(horizon.grid()) {
         eye_ = grid_.steps(glm::dvec2(eye));
-        eye_u_ = eye_.x + grid_.drop * eye.z;
+        eye_u_ = eye_.x + grid_.u_per_metre * eye.z;
         // sin(grazing angle) = slope of u along the light x sin(elevation) / |normal of the facet|. `steepest` is an
         // upper bound of that |normal|.
         const double relief = horizon.u().highest_z - horizon.u().lowest_z;
@@ -15431,7 +15450,7 @@ class horizon_triangles {
         const double steepest = 1 + 2 * relief * steps_per_metre;
         const double sine = -travel.z / numeric::square_root(numeric::dot(travel, travel));
         constexpr double min_sine = 0x1p-20;  // triangles at a smaller grazing angle are left to the test of points
-        rise_ = horizon.margin() + min_sine * steepest / sine;
+        min_facing_slope_ = horizon.margin() + min_sine * steepest / sine;
         // `lower` has its right angle at `apex` and leaves out the opposite corner. It is the first triangle of a cell
         // if the mesh's first triangle leaves out that corner too.
         const std::ptrdiff_t corner = grid_.corner(0, 0);
@@ -15443,10 +15462,10 @@ class horizon_triangles {
     }
 
     /// Writes the results of some columns of cells, by triangle.
-    void find(int first_column, int last_column, decision* into, isa level) const {
+    void classify(int first_column, int last_column, decision* into, isa level) const {
         for (int left = first_column; left < last_column; left += wide)
             for (int bottom = 0; bottom < grid_.rows - 1; bottom += tall) {
-                answers found;
+                decisions found;
                 const int right = (std::min)(left + wide, last_column), top = (std::min)(bottom + tall, grid_.rows - 1);
                 insonify::detail::dispatch(kernel{*this, left, bottom, right, top, found}, level);
                 write(found, left, bottom, right, top, into);
@@ -15456,16 +15475,16 @@ class horizon_triangles {
     /// Discards the results of cells that another caster may shade, within some columns: those whose rays pass through
     /// a rectangle of the plane z = 0.
     /// @param lower, upper  corners of the rectangle, in the grid's steps
-    void forget(const glm::dvec2& lower, const glm::dvec2& upper, int first_column, int last_column,
-                decision* into) const {
+    void reset_to_undecided(const glm::dvec2& lower, const glm::dvec2& upper, int first_column, int last_column,
+                            decision* into) const {
         // Rays through the rectangle stay within these columns and, in each, these rows, at all heights of the relief.
         const double lowest_z = horizon_.u().lowest_z, highest_z = horizon_.u().highest_z;
         const double tolerance = 0x1p-8 + horizon_.margin();  // covers rounding
         const auto clamped = [](double at, int first, int last) {
             return static_cast<int>((std::min)((std::max)(at, static_cast<double>(first)), static_cast<double>(last)));
         };
-        const int left = clamped(lower.x - grid_.drop * highest_z - tolerance - 1, first_column, last_column),
-                  right = clamped(upper.x - grid_.drop * lowest_z + tolerance + 1, first_column, last_column);
+        const int left = clamped(lower.x - grid_.u_per_metre * highest_z - tolerance - 1, first_column, last_column),
+                  right = clamped(upper.x - grid_.u_per_metre * lowest_z + tolerance + 1, first_column, last_column);
         for (int x = left; x < right; ++x) {
             const int bottom = clamped(lower.y - grid_.slope * (upper.x - x) - tolerance - 2, 0, grid_.rows - 1),
                       top = clamped(upper.y - grid_.slope * (lower.x - x - 1) + tolerance + 2, 0, grid_.rows - 1);
@@ -15485,12 +15504,12 @@ class horizon_triangles {
     static constexpr int wide = 32, tall = 256;
 
     /// Results for the cells of a part.
-    struct answers {
+    struct decisions {
         std::int32_t of[wide][tall];  ///< by column, then row: of the first triangle, and of the second << 8
     };
 
     /// The results of a part in the order of the mesh.
-    void write(const answers& found, int left, int bottom, int right, int top, decision* into) const {
+    void write(const decisions& found, int left, int bottom, int right, int top, decision* into) const {
         for (int y = bottom; y < top; ++y)
             for (int x = left; x < right; ++x) {
                 const std::int32_t both = found.of[x - left][y - bottom];
@@ -15503,7 +15522,7 @@ class horizon_triangles {
     struct kernel {
         const horizon_triangles& whole;
         int left, bottom, right, top;
-        answers& into;
+        decisions& into;
 
         template <int N>
         INSONIFY_INLINE void run() const {
@@ -15548,8 +15567,13 @@ class horizon_triangles {
             const floats dy = static_cast<float>(whole.eye_.y - y) - row;
             const floats error = 4 * margin * ((2 + numeric::abs(dx)) + (dy < 0.0f ? 0.0f - dy : dy));
             const floats eye = static_cast<float>(whole.eye_u_) - error;
-            const triangle_lanes<N> known_of{
-                dark_below, lit_above, eye, dy, dx, static_cast<float>(grid.slope), static_cast<float>(whole.rise_)};
+            const triangle_lanes<N> known_of{dark_below,
+                                             lit_above,
+                                             eye,
+                                             dy,
+                                             dx,
+                                             static_cast<float>(grid.slope),
+                                             static_cast<float>(whole.min_facing_slope_)};
             lanes<std::int32_t, N> lower, upper;
             if (grid.is_rising) {
                 known_of(lower, a, b, d, b - a, d - b, a);
@@ -15572,23 +15596,24 @@ class horizon_triangles {
         floats dark_below, lit_above;  ///< bounds: dark below the first, lit above the second
         floats eye;                    ///< u of the camera less the error bound; it is above planes of smaller u
         floats dy;                     ///< from the cell to the camera
-        float dx, slope, enough;
+        float dx, slope, min_facing_slope;
 
         /// @param along_x, along_y  how u rises in it
         /// @param base              u of its plane at the cell's corner (0, 0)
-        INSONIFY_INLINE void operator()(ints& answer, const floats& p, const floats& q, const floats& r,
+        INSONIFY_INLINE void operator()(ints& result, const floats& p, const floats& q, const floats& r,
                                         const floats& along_x, const floats& along_y, const floats& base) const {
             floats largest = p > q ? p : q, smallest = p < q ? p : q;
             largest = largest > r ? largest : r;
             smallest = smallest < r ? smallest : r;
-            const floats rise = along_x + slope * along_y;
+            const floats u_slope = along_x + slope * along_y;
             const ints is_above = ints(base + along_x * dx + along_y * dy < eye);
-            const ints is_facing = ints(rise > enough), is_averted = ints(rise < 0.0f - enough);
-            const ints is_dark = (is_above & is_averted) | ((is_above | is_facing) & ints(largest < dark_below));
+            const ints is_facing = ints(u_slope > min_facing_slope),
+                       is_back_facing = ints(u_slope < 0.0f - min_facing_slope);
+            const ints is_dark = (is_above & is_back_facing) | ((is_above | is_facing) & ints(largest < dark_below));
             const ints is_lit = is_above & is_facing & ints(smallest > lit_above);
-            answer = is_lit ? ints{} + static_cast<std::int32_t>(decision::lit)
+            result = is_lit ? ints{} + static_cast<std::int32_t>(decision::lit)
                             : ints{} + static_cast<std::int32_t>(decision::undecided);
-            answer = is_dark ? ints{} + static_cast<std::int32_t>(decision::dark) : answer;
+            result = is_dark ? ints{} + static_cast<std::int32_t>(decision::dark) : result;
         }
     };
 
@@ -15596,7 +15621,7 @@ class horizon_triangles {
     const lit_grid& grid_;
     glm::dvec2 eye_{0};  ///< in the grid's steps
     double eye_u_ = 0;
-    double rise_ = 0;  ///< slope of u along the light, per column, above which a triangle faces it
+    double min_facing_slope_ = 0;  ///< slope of u along the light, per column, above which a triangle faces it
     bool lower_is_first_ = true;
 };
 
@@ -15700,7 +15725,7 @@ class horizon_walk {
           grid_(horizon.grid()),
           x_(grid_.steps(glm::dvec2(p)).x),
           w_(grid_.steps(glm::dvec2(p)).y - grid_.slope * x_),
-          u_(x_ + grid_.drop * p.z),
+          u_(x_ + grid_.u_per_metre * p.z),
           lattice_error_(horizon.lattice_error()) {}
 
     /// Whether the surface blocks the ray of a point on it, where it faces the light.
@@ -15760,7 +15785,7 @@ class horizon_walk {
         for (bool is_first = true; column >= 0; --column, is_first = false) {
             // Rows of cells that the ray crosses in this column.
             const double low = row_at(column), high = low + grid_.slope;
-            if (high < -lattice_error_ || column + 1 + grid_.drop * highest_z < u_lower_bound) return false;
+            if (high < -lattice_error_ || column + 1 + grid_.u_per_metre * highest_z < u_lower_bound) return false;
             if (!is_first && is_above) {
                 const decision rest = decide_before(column);
                 if (rest != decision::undecided) return rest == decision::dark;
@@ -15866,7 +15891,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
-/// A heightfield on a regular grid under parallel light. Light and camera are above it (skip::facing_its_own).
+/// A heightfield on a regular grid under parallel light. Light and camera are above it (skip::facing_self).
 class grid_caster {
   public:
     template <executor E>
@@ -15879,17 +15904,17 @@ class grid_caster {
 
     /// Decides points [first, last), which lie on this caster and face the light, where the horizon's bounds suffice.
     /// @param into  results, from that of point `first` on
-    void decide_own(const points& at, std::size_t first, std::size_t last, decision* into, isa level) const {
+    void decide_self(const points& at, std::size_t first, std::size_t last, decision* into, isa level) const {
         insonify::detail::dispatch(kernel{*this, at, first, last, into}, level);
     }
     /// Whether it blocks the light of one of its own points that faces the light.
     /// @param p       in the frame of the light
     /// @param decide  decide(triangle): whether the triangle blocks p's light, in doubles; false for p's own triangle
     template <class Decide>
-    bool blocks_own(const glm::dvec3& p, const Decide& decide) const {
+    bool blocks_self(const glm::dvec3& p, const Decide& decide) const {
         const glm::dvec3 at = transform_point(to_mesh_, p);
-        const decision answer = bounds_.at(at);
-        if (answer != decision::undecided) return answer == decision::dark;
+        const decision result = bounds_.at(at);
+        if (result != decision::undecided) return result == decision::dark;
         return horizon_walk(bounds_, macrocells_, at).is_blocked_from_surface(decide);
     }
     /// The same for any point.
@@ -15927,10 +15952,10 @@ class grid_caster {
             const affine& m = caster.to_mesh_;
             for (int k = 0; k < 3; ++k)
                 p[k] = m.linear[0][k] * x + m.linear[1][k] * y + m.linear[2][k] * z + m.offset[k];
-            lanes<std::int64_t, N> answers;
-            caster.bounds_.decide<N>(answers, p);
+            lanes<std::int64_t, N> decisions;
+            caster.bounds_.decide<N>(decisions, p);
             for (int k = 0; k < N; ++k)
-                into[i - first + static_cast<std::size_t>(k)] = static_cast<decision>(lane(answers, k));
+                into[i - first + static_cast<std::size_t>(k)] = static_cast<decision>(lane(decisions, k));
         }
     };
 
@@ -15975,7 +16000,7 @@ class light_rays {
             source_ = light_frame(*parallel).to_light();
         } else {
             source_ = std::get<point_light>(light).position;
-            is_near_ = true;
+            is_point_light_ = true;
             for (int i = 0; i < 3; ++i) {
                 insonify::detail::require(numeric::is_finite(source_[i]), "point_light.position", source_[i],
                                           "finite coordinates");
@@ -15985,7 +16010,7 @@ class light_rays {
     }
 
     /// Vector from a point to the light: a unit vector for parallel light, the full offset for a point light.
-    glm::dvec3 toward(const glm::dvec3& p) const { return is_near_ ? source_ - p : source_; }
+    glm::dvec3 toward(const glm::dvec3& p) const { return is_point_light_ ? source_ - p : source_; }
 
     /// Whether the triangle (a, b, c) blocks the light of `from`.
     bool blocks(const glm::dvec3& corner_a, const glm::dvec3& corner_b, const glm::dvec3& corner_c,
@@ -16016,13 +16041,13 @@ class light_rays {
         const double tolerance = 0x1p-40 * size(normal);
         if (!(sign * along > 0 && sign * behind > reach_ * tolerance)) return false;
         // A triangle that contains the light does not block it.
-        return !is_near_ || sign * (along - behind) > light_reach_ * tolerance;
+        return !is_point_light_ || sign * (along - behind) > light_reach_ * tolerance;
     }
 
   private:
     glm::dvec3 source_;           ///< direction, or position
     double reach_, light_reach_;  ///< of points, and with the light
-    bool is_near_ = false;
+    bool is_point_light_ = false;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
@@ -16062,7 +16087,7 @@ struct alignas(16) plane_vertex {
     float u, v, height;
     float state;  ///< 0, or one of the following
 
-    static constexpr float behind = 1;    ///< on the other side of a near light
+    static constexpr float behind = 1;    ///< on the other side of a point light
     static constexpr float too_near = 2;  ///< at a depth from 0 to min_depth: not projected
     static constexpr float not_finite = 3;
 };
@@ -16082,7 +16107,7 @@ struct plane_vertices_kernel {
         std::size_t i = 0;
 #if INSONIFY_SIMD
         if constexpr (Width > 1)
-            if (!plane.is_near())
+            if (!plane.is_point_light())
                 for (; i + 4 < count; i += 4) four(i);
 #endif
         for (; i < count; ++i) one(i);
@@ -16095,19 +16120,19 @@ struct plane_vertices_kernel {
             vertices[i] = {0, 0, 0, plane_vertex::not_finite};
             return;
         }
-        if (plane.is_near() && !(p.z >= min_depth)) {
+        if (plane.is_point_light() && !(p.z >= min_depth)) {
             vertices[i] = {0, 0, 0, p.z < 0 ? plane_vertex::behind : plane_vertex::too_near};
             return;
         }
-        const glm::dvec3 seen = plane.is_near() ? light_plane::seen(p) : p;
-        vertices[i] = {static_cast<float>(seen.x - lower.x), static_cast<float>(seen.y - lower.y),
-                       static_cast<float>(seen.z), 0};
+        const glm::dvec3 projected = plane.is_point_light() ? light_plane::perspective_divide(p) : p;
+        vertices[i] = {static_cast<float>(projected.x - lower.x), static_cast<float>(projected.y - lower.y),
+                       static_cast<float>(projected.z), 0};
     }
 #if INSONIFY_SIMD
     INSONIFY_INLINE void four(std::size_t i) const {
         using namespace insonify::detail;
         using reals = lanes<double, 4>;
-        lanes<float, 4> position[3], seen[4], rows[4];
+        lanes<float, 4> position[3], projected[4], rows[4];
         transpose_threes(position, &positions[i]);
         reals p[3], bad{};
         for (int axis = 0; axis < 3; ++axis) convert(p[axis], position[axis]);
@@ -16116,11 +16141,11 @@ struct plane_vertices_kernel {
             const reals sum = to_plane.linear[0][row] * p[0] + to_plane.linear[1][row] * p[1] +
                               to_plane.linear[2][row] * p[2] + offset;
             bad = bad + (sum - sum);
-            convert(seen[row], sum);
+            convert(projected[row], sum);
         });
         const reals state = bad == 0.0 ? reals{} : reals{} + static_cast<double>(plane_vertex::not_finite);
-        convert(seen[3], state);
-        transpose_fours<4>(rows, seen);
+        convert(projected[3], state);
+        transpose_fours<4>(rows, projected);
         for (int k = 0; k < 4; ++k) store(&vertices[i + static_cast<std::size_t>(k)].u, rows[k]);
     }
 #endif
@@ -16236,7 +16261,7 @@ struct tile_assembly_kernel {
         }
     }
 
-    /// Whether a triangle that reaches behind a near light lies beyond one side of the pyramid from the light through
+    /// Whether a triangle that reaches behind a point light lies beyond one side of the pyramid from the light through
     /// the plane's square: no ray to the light meets it there. The margin covers rounding.
     INSONIFY_RARE bool is_beside_pyramid(const glm::uvec3& triangle) const {
         glm::dvec3 p[3];
@@ -16386,7 +16411,7 @@ class receiver_cells {
         place.resize(room);
         for (auto* array : {&mesh, &triangle, &lit_mesh, &limit_}) array->resize(room);
         is_limited_ = false;
-        lit_ = averted_ = {};
+        lit_ = back_facing_ = {};
         next_.clear();
         next_.append(starts_);
         for (std::size_t i = 0; i < count; ++i) {
@@ -16402,10 +16427,10 @@ class receiver_cells {
             limit_[at] = batch.casters;
             is_limited_ = is_limited_ || batch.casters != invalid_id;
             lit_mesh[at] = batch.face_light ? r.mesh : invalid_id;
-            (batch.face_light ? lit_ : averted_).include(r.mesh);
+            (batch.face_light ? lit_ : back_facing_).include(r.mesh);
         }
         for (std::size_t i = count; i < room; ++i) u[i] = v[i] = height[i] = 0;
-        caster.assign(room, open);
+        caster.assign(room, unblocked);
     }
 
     int columns() const { return columns_; }
@@ -16419,16 +16444,16 @@ class receiver_cells {
     /// No coordinate u or v is larger.
     float largest() const { return largest_; }
     /// Whether all lie where a caster faces the light.
-    bool are_on_lit_side(std::uint32_t number) const { return averted_.empty() && lit_.is_only(number); }
+    bool are_on_lit_side(std::uint32_t number) const { return back_facing_.empty() && lit_.is_only(number); }
     /// Whether some may lie where a caster faces away from the light.
-    bool may_be_on_averted_side(std::uint32_t number) const { return averted_.contains(number); }
-    /// Closes the open receivers that are tested against casters below this index only (points::casters).
-    void close(std::uint32_t casters) {
+    bool may_be_on_back_side(std::uint32_t number) const { return back_facing_.contains(number); }
+    /// Excludes unblocked receivers from tests against this caster and later ones, by their limit (points::casters).
+    void exclude_from(std::uint32_t casters) {
         if (!is_limited_) return;
         for (std::size_t i = 0; i < size(); ++i)
-            if (limit_[i] <= casters && caster[i] == open) caster[i] = closed;
+            if (limit_[i] <= casters && caster[i] == unblocked) caster[i] = excluded;
     }
-    static constexpr std::int32_t open = -1, closed = -2;
+    static constexpr std::int32_t unblocked = -1, excluded = -2;
     /// Receivers of the cells [first, last] of a row lie from start(row, first) up to start(row, last + 1).
     std::uint32_t start(int row, int column) const {
         return starts_[static_cast<std::size_t>(row * columns_ + column)];
@@ -16438,7 +16463,7 @@ class receiver_cells {
     dynamic_array<batch_index> place;
     dynamic_array<std::uint32_t> mesh, triangle;
     dynamic_array<std::uint32_t> lit_mesh;  ///< the mesh of a point whose facet faces the light, or invalid_id
-    dynamic_array<std::int32_t> caster;     ///< that blocks it, or open, or closed
+    dynamic_array<std::int32_t> caster;     ///< that blocks it, or unblocked, or excluded
 
   private:
     static constexpr int max_rows = 128;
@@ -16455,7 +16480,7 @@ class receiver_cells {
     glm::vec2 lower_{0}, scale_{1}, cell_{1};
     float lowest_ = 0, highest_ = 0, largest_ = 0;
     bool is_limited_ = false;
-    mesh_range lit_, averted_;  ///< meshes of points that face the light, and of those that face away
+    mesh_range lit_, back_facing_;  ///< meshes of points that face the light, and of those that face away
     dynamic_array<std::uint32_t> starts_, next_, limit_;
     dynamic_array<std::uint16_t> keys_;
 };
@@ -16492,8 +16517,8 @@ struct occlusion_kernel {
     std::span<const insonify::detail::triangle_run> runs;
     std::uint32_t number;  ///< of the caster
     skip may_skip;
-    bool is_turned;  ///< triangles that face the light are clockwise
-    float error;     ///< of coordinates on the plane, before they are rounded to float
+    bool front_is_clockwise;  ///< triangles that face the light are clockwise
+    float error;              ///< of coordinates on the plane, before they are rounded to float
     receiver_cells& receivers;
     const Decide& decide;
 
@@ -16529,9 +16554,9 @@ struct occlusion_kernel {
             t.range(low, high, axis);
             const float lower = receivers.lower()[axis], scale = receivers.scale()[axis];
             const float last_cell = static_cast<float>(axis == 0 ? receivers.columns() - 1 : receivers.rows() - 1);
-            const floats far_off = high < 0.0f - low ? 0.0f - low : high;
-            size = far_off > size ? far_off : size;
-            const floats margin = 0x1p-20f * (far_off + receivers.largest()) + error;
+            const floats largest_coordinate = high < 0.0f - low ? 0.0f - low : high;
+            size = largest_coordinate > size ? largest_coordinate : size;
+            const floats margin = 0x1p-20f * (largest_coordinate + receivers.largest()) + error;
             const floats f = (low - margin - lower) * scale, l = (high + margin - lower) * scale;
             missed |= ints(f >= last_cell + 1.0f) | ints(l < 0.0f);
             const ints behind = ints(t.state > 0.0f);
@@ -16541,38 +16566,43 @@ struct occlusion_kernel {
         });
         floats low, high;
         t.range(low, high, 2);
-        const floats height_off = 0x1.2p-24f * (high > 0.0f - low ? high : 0.0f - low) + height_error_of_receivers();
-        missed |= ints(high + 2.0f * height_off < receivers.lowest()) & ints(t.state == 0.0f);  // below all receivers
+        const floats height_rounding =
+            0x1.2p-24f * (high > 0.0f - low ? high : 0.0f - low) + height_error_of_receivers();
+        missed |=
+            ints(high + 2.0f * height_rounding < receivers.lowest()) & ints(t.state == 0.0f);  // below all receivers
         floats ab[3], ac[3];
         unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
             ab[axis] = t.b[axis] - t.a[axis];
             ac[axis] = t.c[axis] - t.a[axis];
         });
         floats area = ab[0] * ac[1] - ab[1] * ac[0];
-        const floats area_off = 0x1p-20f * (size + receivers.largest()) * (extent[0] + extent[1]);
-        const ints facing = ints((is_turned ? 0.0f - area : area) > area_off) & ints(t.state == 0.0f);
+        const floats area_error = 0x1p-20f * (size + receivers.largest()) * (extent[0] + extent[1]);
+        const ints facing = ints((front_is_clockwise ? 0.0f - area : area) > area_error) & ints(t.state == 0.0f);
         const bool all_skip = may_skip == skip::facing
-                                  ? !receivers.may_be_on_averted_side(number)
-                                  : may_skip == skip::facing_its_own && receivers.are_on_lit_side(number);
+                                  ? !receivers.may_be_on_back_side(number)
+                                  : may_skip == skip::facing_self && receivers.are_on_lit_side(number);
         if (all_skip) missed |= facing;
-        const unsigned open = ~movemask<N>(missed) & ((2u << (count - 1)) - 1);
-        if (open == 0) return;
+        const unsigned unblocked = ~movemask<N>(missed) & ((2u << (count - 1)) - 1);
+        if (unblocked == 0) return;
         const unsigned some_skip = may_skip != skip::nothing ? movemask<N>(facing) : 0;
         // Counter-clockwise on the plane.
-        const ints turned = ints(area < 0.0f);
+        const ints is_clockwise = ints(area < 0.0f);
         unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
             const floats other = ab[axis];
-            ab[axis] = turned ? ac[axis] : ab[axis];
-            ac[axis] = turned ? other : ac[axis];
+            ab[axis] = is_clockwise ? ac[axis] : ab[axis];
+            ac[axis] = is_clockwise ? other : ac[axis];
         });
-        area = turned ? 0.0f - area : area;
-        // A coordinate is off by half a unit in the last place, a difference by twice as much; two products round.
-        const floats off = 0x1.2p-24f * (size > receivers.largest() ? size : floats{} + receivers.largest()) + error;
+        area = is_clockwise ? 0.0f - area : area;
+        // The rounding error of a coordinate is half a unit in the last place, of a difference twice that; the two
+        // products add their own.
+        const floats coordinate_error =
+            0x1.2p-24f * (size > receivers.largest() ? size : floats{} + receivers.largest()) + error;
         const floats box = extent[0] * extent[1];
-        floats edge_error = 4.5f * off * (extent[0] + extent[1]) + 0x1p-21f * box;
+        floats edge_error = 4.5f * coordinate_error * (extent[0] + extent[1]) + 0x1p-21f * box;
         const floats slopes = (ab[2] < 0.0f ? 0.0f - ab[2] : ab[2]) + (ac[2] < 0.0f ? 0.0f - ac[2] : ac[2]);
-        floats height_error = (edge_error + 0x1p-20f * box) * slopes + 10.0f * box * height_off;
-        const floats height_share = 3.0f * edge_error + 0x1p-21f * box;  // for each unit between a and the receiver
+        floats height_error = (edge_error + 0x1p-20f * box) * slopes + 10.0f * box * height_rounding;
+        const floats height_error_per_unit =
+            3.0f * edge_error + 0x1p-21f * box;  // per unit of height between corner a and the receiver
         edge_error = t.state == 0.0f ? edge_error : floats{} + std::numeric_limits<float>::infinity();
         height_error = t.state == 0.0f ? height_error : floats{} + std::numeric_limits<float>::infinity();
 
@@ -16585,12 +16615,12 @@ struct occlusion_kernel {
         });
         store(values[9], edge_error);
         store(values[10], height_error);
-        store(values[11], height_share);
+        store(values[11], height_error_per_unit);
         unroll<2>([&](int axis) INSONIFY_INLINE_LAMBDA {
             store(cells[axis], first[axis]);
             store(cells[2 + axis], last[axis]);
         });
-        for (unsigned left = open; left != 0; left &= left - 1) {
+        for (unsigned left = unblocked; left != 0; left &= left - 1) {
             const auto k = static_cast<std::size_t>(std::countr_zero(left));
             const float one[12] = {values[0][k], values[1][k], values[2][k],  values[3][k],
                                    values[4][k], values[5][k], values[6][k],  values[7][k],
@@ -16629,11 +16659,12 @@ struct occlusion_kernel {
             const floats to_c = t[3] * v - t[4] * u, to_b = t[7] * u - t[6] * v;  // weights of c and b, times the area
             const floats to_a = area - to_b - to_c;
             const floats above = area * height - (to_b * t[5] + to_c * t[8]);
-            const floats doubt = t[10] + t[11] * (height < 0.0f ? 0.0f - height : height);
-            const ints out = ints(to_b < -t[9]) | ints(to_c < -t[9]) | ints(to_a < -3 * t[9]) | ints(above > doubt);
-            const ints open = ints(out == 0) & ints(blocked == receiver_cells::open) &
-                              ints(column < static_cast<std::int32_t>(last - i));
-            if (!any(open)) continue;
+            const floats error_bound = t[10] + t[11] * (height < 0.0f ? 0.0f - height : height);
+            const ints out =
+                ints(to_b < -t[9]) | ints(to_c < -t[9]) | ints(to_a < -3 * t[9]) | ints(above > error_bound);
+            const ints unblocked = ints(out == 0) & ints(blocked == receiver_cells::unblocked) &
+                                   ints(column < static_cast<std::int32_t>(last - i));
+            if (!any(unblocked)) continue;
             load(mesh, receivers.mesh.data() + i);
             load(triangle, receivers.triangle.data() + i);
             const ints is_own = ints(mesh == static_cast<std::int32_t>(number));
@@ -16643,9 +16674,9 @@ struct occlusion_kernel {
                 skipped |= ints(lit_mesh == static_cast<std::int32_t>(number));
                 if (skips == skip::facing) skipped |= ~is_own;
             }
-            const ints tested = open & ~skipped;
-            const ints certain =
-                tested & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) & ints(above < 0.0f - doubt);
+            const ints tested = unblocked & ~skipped;
+            const ints certain = tested & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) &
+                                 ints(above < 0.0f - error_bound);
             store(casters + i, ints(certain ? ints{} + static_cast<std::int32_t>(number) : blocked));
             for (unsigned left = movemask<N>(ints(tested & ~certain)); left != 0; left &= left - 1) {
                 const std::size_t at = i + static_cast<std::size_t>(std::countr_zero(left));
@@ -16661,7 +16692,7 @@ struct occlusion_kernel {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/shadow/detail/tile_occupants.hpp -------------------------------------------------
+// ------------ insonify/shadow/detail/tile_casters.hpp ---------------------------------------------------
 // Which casters touch each tile of a plane.
 
 namespace insonify {
@@ -16671,24 +16702,24 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 using insonify::detail::dynamic_array;
 
 /// The casters that touch each tile of a plane.
-class tile_occupants {
+class tile_casters {
   public:
     static constexpr std::uint32_t none = invalid_id, several = invalid_id - 1;
-    struct occupancy {
+    struct covered_tile {
         std::uint32_t tile, caster;
     };
 
-    tile_occupants() = default;
+    tile_casters() = default;
     /// @param all  in order of casters
-    tile_occupants(std::size_t tiles, std::span<const occupancy> all)
+    tile_casters(std::size_t tiles, std::span<const covered_tile> all)
         : only_(tiles, none), starts_(tiles + 1, 0), casters_(all.size()) {
-        for (const occupancy& o : all) {
+        for (const covered_tile& o : all) {
             ++starts_[o.tile + 1];
             only_[o.tile] = only_[o.tile] == none ? o.caster : several;
         }
         for (std::size_t tile = 0; tile < tiles; ++tile) starts_[tile + 1] += starts_[tile];
         dynamic_array<std::size_t> next = starts_;
-        for (const occupancy& o : all) casters_[next[o.tile]++] = o.caster;
+        for (const covered_tile& o : all) casters_[next[o.tile]++] = o.caster;
     }
 
     /// In order.
@@ -16736,7 +16767,7 @@ struct tiled_plane {
     float error = 0;  ///< of coordinates on the plane
     dynamic_array<plane_caster> casters;
     glm::dvec2 scale{};  ///< tiles per unit
-    tile_occupants occupants{};
+    tile_casters casters_of_tiles{};
 
     /// The tile that contains a point of the plane, or the nearest one.
     std::size_t tile_of(const glm::dvec3& at) const {
@@ -16765,7 +16796,7 @@ struct tiled_plane {
 class tiled_planes {
   public:
     explicit tiled_planes(const any_light& light) {
-        if (const auto* point = std::get_if<point_light>(&light)) near_light_ = *point;
+        if (const auto* point = std::get_if<point_light>(&light)) point_light_ = *point;
     }
     void add(tiled_plane plane) {
         starts_.push_back(tile_count() + (plane.casters.empty() ? 0 : plane.tiles.count()));
@@ -16773,7 +16804,7 @@ class tiled_planes {
     }
 
     bool empty() const { return planes_.empty(); }
-    bool are_near() const { return near_light_.has_value(); }
+    bool has_point_light() const { return point_light_.has_value(); }
     const tiled_plane& front() const { return planes_.front(); }
     std::size_t tile_count() const { return starts_.back(); }
 
@@ -16786,21 +16817,22 @@ class tiled_planes {
     /// Where a point lies.
     struct place {
         const tiled_plane* plane;  ///< null where no caster blocks its light
-        glm::dvec3 seen;           ///< on the plane, after the division
+        glm::dvec3 projected;      ///< on the plane, after the division
         std::size_t tile;          ///< among all
-        std::uint32_t occupant;    ///< of the tile, see tile_occupants::only
+        std::uint32_t caster;      ///< of the tile, see tile_casters::only
     };
     place of(const glm::dvec3& p) const {
-        const auto face = static_cast<std::size_t>(near_light_ ? light_plane::face_of(*near_light_, p) : 0);
+        const auto face = static_cast<std::size_t>(point_light_ ? light_plane::face_of(*point_light_, p) : 0);
         const tiled_plane& on = planes_[face];
         if (on.casters.empty()) return {};
-        const glm::dvec3 before = on.plane(p), seen = near_light_ ? light_plane::seen(before) : before;
-        const std::size_t tile = on.tile_of(seen);
-        return {&on, seen, starts_[face] + tile, on.occupants.only(tile)};
+        const glm::dvec3 homogeneous = on.plane(p),
+                         projected = point_light_ ? light_plane::perspective_divide(homogeneous) : homogeneous;
+        const std::size_t tile = on.tile_of(projected);
+        return {&on, projected, starts_[face] + tile, on.casters_of_tiles.only(tile)};
     }
 
   private:
-    std::optional<point_light> near_light_;
+    std::optional<point_light> point_light_;
     dynamic_array<tiled_plane> planes_;
     dynamic_array<std::size_t> starts_{0};  ///< first tile of each plane, then their number
 };
@@ -16886,12 +16918,12 @@ class points_by_tile {
             const points& some = at[batch];
             for (std::size_t i = 0; i < some.size(); ++i) {
                 const tiled_planes::place over = planes_.of(some[i]);
-                if (over.plane == nullptr || over.occupant == tile_occupants::none) continue;
-                if (over.occupant != tile_occupants::several && over.occupant >= some.casters) continue;
-                const glm::dvec2 from = glm::dvec2(over.seen) - over.plane->tiles.lower;
+                if (over.plane == nullptr || over.caster == tile_casters::none) continue;
+                if (over.caster != tile_casters::several && over.caster >= some.casters) continue;
+                const glm::dvec2 from = glm::dvec2(over.projected) - over.plane->tiles.lower;
                 found[count] = {static_cast<float>(from.x),
                                 static_cast<float>(from.y),
-                                static_cast<float>(over.seen.z),
+                                static_cast<float>(over.projected.z),
                                 {batch, i},
                                 some.mesh[i],
                                 some.triangle[i]};
@@ -16963,9 +16995,9 @@ class exact_occlusion {
     void screen(const points& at, const results& into) const {
         std::fill(into.caster.begin(), into.caster.end(), invalid_id);
         if (planes_.empty()) return std::fill(into.lit.begin(), into.lit.end(), 1.0f);
-        if (planes_.are_near()) return std::fill(into.lit.begin(), into.lit.end(), unknown);
+        if (planes_.has_point_light()) return std::fill(into.lit.begin(), into.lit.end(), unknown);
         for (std::size_t first = 0, last = 0; first < at.size(); first = last) {
-            const std::size_t end = (std::min)(first + screened_together, at.size());
+            const std::size_t end = (std::min)(first + pretested_together, at.size());
             for (last = first + 1; last < end && at.mesh[last] == at.mesh[first];) ++last;
             screen(at, first, last, into);
         }
@@ -16980,22 +17012,23 @@ class exact_occlusion {
         const shadow::caster& c = casters_[caster];
         const detail::lit_grid& grid = grids_[caster]->grid();
         const detail::horizon_triangles triangles = grids_[caster]->triangles(eye);
-        insonify::detail::uninitialized_array<decision> answers(c.mesh.triangles.size(),
-                                                                insonify::detail::memory_of(ex));
+        insonify::detail::uninitialized_array<decision> decisions(c.mesh.triangles.size(),
+                                                                  insonify::detail::memory_of(ex));
         // Triangles that other casters may shade are left to the test of points.
         detail::dynamic_array<std::pair<glm::dvec2, glm::dvec2>> shared;
         const detail::tiled_plane& plane = planes_.front();
-        const detail::ray_feet feet(plane.plane, c.placement, grid);
+        const detail::datum_intercepts intercepts(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
-            if (plane.occupants.only(tile) == caster || plane.occupants.of(tile).empty()) continue;
-            shared.push_back(feet.of(plane.tiles.lower + plane.tiles.corner(tile), plane.tiles.tile()));
+            if (plane.casters_of_tiles.only(tile) == caster || plane.casters_of_tiles.of(tile).empty()) continue;
+            shared.push_back(intercepts.of(plane.tiles.lower + plane.tiles.corner(tile), plane.tiles.tile()));
         }
         bulk_ranges(ex, static_cast<std::size_t>(grid.columns - 1), 32, [&](std::size_t first, std::size_t last) {
             const auto left = static_cast<int>(first), right = static_cast<int>(last);
-            triangles.find(left, right, answers.data(), level_);
-            for (const auto& [lower, upper] : shared) triangles.forget(lower, upper, left, right, answers.data());
+            triangles.classify(left, right, decisions.data(), level_);
+            for (const auto& [lower, upper] : shared)
+                triangles.reset_to_undecided(lower, upper, left, right, decisions.data());
         });
-        return answers;
+        return decisions;
     }
 
     /// See occlusion.
@@ -17037,28 +17070,27 @@ class exact_occlusion {
     /// Whether a caster is a grid lit from above its own plane: then horizon bounds replace its list of triangles.
     /// Checked for each sample of a wide light, since some may lie below that plane.
     static bool has_horizon(const caster& c, const light_frame& frame) {
-        return c.grid != nullptr && c.may_skip == skip::facing_its_own &&
+        return c.grid != nullptr && c.may_skip == skip::facing_self &&
                transform_direction(inverse(c.placement), frame.to_light()).z > 0;
     }
-    static constexpr std::size_t screened_together = 256;
+    static constexpr std::size_t pretested_together = 256;
     /// Screens points of one mesh, of parallel light.
     void screen(const points& at, std::size_t first, std::size_t last, const results& into) const {
         const std::uint32_t own = at.mesh[first];
         const bool is_grid = own < grids_.size() && grids_[own];
-        decision answers[screened_together];
-        std::fill_n(answers, last - first, decision::undecided);
-        if (is_grid && at.face_light) grids_[own]->decide_own(at, first, last, answers, level_);
+        decision decisions[pretested_together];
+        std::fill_n(decisions, last - first, decision::undecided);
+        if (is_grid && at.face_light) grids_[own]->decide_self(at, first, last, decisions, level_);
         const detail::tiled_plane& state = planes_.front();
         for (std::size_t i = first; i < last; ++i) {
-            const std::uint32_t occupant = state.occupants.only(state.tile_of(state.plane(at[i])));
+            const std::uint32_t only = state.casters_of_tiles.only(state.tile_of(state.plane(at[i])));
             into.lit[i] = unknown;
-            if (occupant == detail::tile_occupants::none ||
-                (occupant != detail::tile_occupants::several && occupant >= at.casters)) {
+            if (only == detail::tile_casters::none || (only != detail::tile_casters::several && only >= at.casters)) {
                 into.lit[i] = 1;
-            } else if (occupant == own && is_grid) {
-                const decision answer = answers[i - first];
+            } else if (only == own && is_grid) {
+                const decision decided = decisions[i - first];
                 const bool is_dark =
-                    answer == decision::undecided ? is_blocked_by_grid(own, at, i) : answer == decision::dark;
+                    decided == decision::undecided ? is_blocked_by_grid(own, at, i) : decided == decision::dark;
                 into.lit[i] = is_dark ? 0.0f : 1.0f;
                 into.caster[i] = is_dark ? own : invalid_id;
             }
@@ -17070,7 +17102,7 @@ class exact_occlusion {
         const auto decide = [&](std::uint32_t triangle) {
             return !(is_own && at.triangle[i] == triangle) && is_blocked_by(number, triangle, at[i]);
         };
-        return is_own && at.face_light ? grids_[number]->blocks_own(at[i], decide)
+        return is_own && at.face_light ? grids_[number]->blocks_self(at[i], decide)
                                        : grids_[number]->blocks(at[i], decide);
     }
     bool is_blocked_by(std::uint32_t number, std::uint32_t triangle, const glm::dvec3& p) const {
@@ -17094,11 +17126,11 @@ class exact_occlusion {
     void add_point_planes(const point_light& light, const bounding_box& bounds, int side, E& ex) {
         for (int i = 0; i < 6; ++i) {
             const detail::light_plane plane(light, i);
-            if (!detail::is_seen(plane, bounds)) {
+            if (!detail::is_visible_on(plane, bounds)) {
                 planes_.add({});
                 continue;
             }
-            const auto [lower, upper] = detail::seen_part(plane, bounds);
+            const auto [lower, upper] = detail::visible_extent(plane, bounds);
             add_plane(plane, {lower, upper - lower, side, side}, 0x1p-40, 0x1p-20 * reach_of(bounds), ex);
         }
     }
@@ -17109,9 +17141,9 @@ class exact_occlusion {
         tiles.lower -= margin;
         tiles.size += 2 * margin;
         detail::tiled_plane state{plane, tiles, static_cast<float>(error), {}, 1.0 / tiles.tile(), {}};
-        detail::dynamic_array<detail::tile_occupants::occupancy> occupants;
-        const auto occupy = [&](int column, int row, std::size_t caster) {
-            occupants.push_back(
+        detail::dynamic_array<detail::tile_casters::covered_tile> covered;
+        const auto cover = [&](int column, int row, std::size_t caster) {
+            covered.push_back(
                 {static_cast<std::uint32_t>(row * tiles.columns + column), static_cast<std::uint32_t>(caster)});
         };
         for (std::size_t i = 0; i < casters_.size(); ++i) {
@@ -17120,7 +17152,7 @@ class exact_occlusion {
                 state.casters.push_back({});
                 const auto [first, last] = state.tiles_under(c);
                 for (int row = first.y; row <= last.y; ++row)
-                    for (int column = first.x; column <= last.x; ++column) occupy(column, row, i);
+                    for (int column = first.x; column <= last.x; ++column) cover(column, row, i);
                 continue;
             }
             insonify::detail::require_indices(c.mesh, ex);
@@ -17129,9 +17161,9 @@ class exact_occlusion {
             const rect touched = built.tiles();
             for (int row = touched.y0; row < touched.y1; ++row)
                 for (int column = touched.x0; column < touched.x1; ++column)
-                    if (!built.bin(column, row).empty()) occupy(column, row, i);
+                    if (!built.bin(column, row).empty()) cover(column, row, i);
         }
-        state.occupants = {tiles.count(), occupants};
+        state.casters_of_tiles = {tiles.count(), covered};
         planes_.add(std::move(state));
     }
 
@@ -17141,11 +17173,11 @@ class exact_occlusion {
         cells.sort(all, at, glm::vec2(state->tiles.corner(tile)), glm::vec2(state->tiles.tile()));
         const auto row_length = static_cast<std::size_t>(state->tiles.columns);
         const auto column = static_cast<int>(tile % row_length), row = static_cast<int>(tile / row_length);
-        for (const std::uint32_t number : state->occupants.of(tile)) {
-            cells.close(number);
+        for (const std::uint32_t number : state->casters_of_tiles.of(tile)) {
+            cells.exclude_from(number);
             if (grids_[number]) {
                 for (std::size_t k = 0; k < cells.size(); ++k)
-                    if (cells.caster[k] == detail::receiver_cells::open) {
+                    if (cells.caster[k] == detail::receiver_cells::unblocked) {
                         const detail::batch_index place = cells.place[k];
                         if (is_blocked_by_grid(number, at[place.batch()], place.point()))
                             cells.caster[k] = static_cast<std::int32_t>(number);
@@ -17159,9 +17191,9 @@ class exact_occlusion {
                 return is_blocked_by(number, triangle, at[place.batch()][place.point()]);
             };
             insonify::detail::dispatch(
-                detail::occlusion_kernel<std::remove_const_t<decltype(decide)>>{caster, caster.bin(column, row), number,
-                                                                                c.may_skip, is_turned(c, *state),
-                                                                                state->error, cells, decide},
+                detail::occlusion_kernel<std::remove_const_t<decltype(decide)>>{
+                    caster, caster.bin(column, row), number, c.may_skip, front_is_clockwise(c, *state), state->error,
+                    cells, decide},
                 level_);
         }
         for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -17173,7 +17205,7 @@ class exact_occlusion {
     }
 
     /// Whether a triangle that faces the light is clockwise on the plane.
-    static bool is_turned(const caster& c, const detail::tiled_plane& state) {
+    static bool front_is_clockwise(const caster& c, const detail::tiled_plane& state) {
         return (numeric::determinant(c.placement.linear) < 0) != state.plane.is_mirrored();
     }
 
@@ -17222,9 +17254,9 @@ inline ground_rect casting_ground(const ground_rect& points, const seabed::heigh
     ground_rect all = points;
     const double relief = range.highest - range.lowest;
     if (!(relief > 0)) return all;
-    const auto* const from_nearby = std::get_if<shadow::point_light>(&light);
+    const auto* const point = std::get_if<shadow::point_light>(&light);
     const auto light_at = [&](const glm::dvec2& disc_offset) {  // a position if it is near, else a direction
-        if (from_nearby != nullptr) return shadow::point_of_disc(from_nearby->position, disc_offset);
+        if (point != nullptr) return shadow::point_of_disc(point->position, disc_offset);
         const shadow::light_frame frame(std::get<shadow::directional_light>(light));
         return shadow::toward_disc(frame.to_light(), frame.travel(), disc_offset);
     };
@@ -17235,7 +17267,7 @@ inline ground_rect casting_ground(const ground_rect& points, const seabed::heigh
             for (int axis = 0; axis < 2; ++axis) {
                 for (const double from : {points.lower[axis], points.upper[axis]}) {
                     double way;
-                    if (from_nearby != nullptr) {
+                    if (point != nullptr) {
                         const double share = to.z > range.highest ? relief / (to.z - range.lowest) : 1;
                         way = share * (to[axis] - from);
                     } else {
@@ -17363,7 +17395,7 @@ struct heightfield {
     double spacing = 1;           ///< metres between vertices, > 0 and < 10^6
     type fallback = type::sand;
     /// Properties of users' labels; those of the library are in its registry.
-    std::vector<type_properties> own_types{};
+    std::vector<type_properties> user_types{};
 
     /// Height of the drawn surface at a world position, metres. @pre the heightfield is valid, here and below
     INSONIFY_MEMBER float height_at(double x, double y) const { return static_cast<float>(facet_at(x, y).height); }
@@ -17445,8 +17477,8 @@ inline std::vector<type_properties> heightfield::legend() const {
     std::array<bool, 256> occurs{};
     if (types.empty()) occurs[index_of(fallback)] = true;
     for (const type t : types.pixels()) occurs[index_of(t)] = true;
-    std::vector<type_properties> all = own_types;
-    for (const type_properties& own : own_types) occurs[index_of(own.label)] = false;
+    std::vector<type_properties> all = user_types;
+    for (const type_properties& own : user_types) occurs[index_of(own.label)] = false;
     for (std::size_t i = 0; i < label_count; ++i)
         if (occurs[i]) all.push_back(properties_of(static_cast<type>(i)));
     return all;
@@ -17693,7 +17725,7 @@ struct surface_vertex_shader {
         offset = glm::vec3(transform_point(shape.to_rig, glm::dvec3(centre)));
     }
 
-    placed_vertex<surface_varyings> operator()(const vertex& v) const {
+    vertex_output<surface_varyings> operator()(const vertex& v) const {
         const glm::vec3 position = numeric::product(linear, v.position - centre) + offset;
         return {view.clip(position), {numeric::product(normals, v.normal), position.z}};
     }
@@ -17750,7 +17782,7 @@ class surface_shader {
         : object_(object),
           into_(into),
           law_(law),
-          is_near_(view.has_near_light()),
+          is_point_light_(view.has_point_light()),
           left_(0.5f * static_cast<float>(1 - view.rig().size.x)),
           top_(0.5f * static_cast<float>(view.rig().size.y - 1)),
           ray_step_(static_cast<float>(view.ray_step())),
@@ -17758,7 +17790,7 @@ class surface_shader {
           intensity_(view.rig().intensity),
           sky_(view.rig().sky),
           ambient_(view.rig().ambient) {
-        const glm::vec3 light(is_near_ ? view.light_position() : view.light().to_light());
+        const glm::vec3 light(is_point_light_ ? view.light_position() : view.light().to_light());
         for (int i = 0; i < 3; ++i) to_light_[i] = light[i];
     }
 
@@ -17777,9 +17809,10 @@ class surface_shader {
         if (any(invalid)) use_facets<N>(normal, f, invalid);
         square_root<N>(length, normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
         length = length > 0.0f ? length : floats{} + 1.0f;
-        const floats turned = side / length;
+        const floats signed_inverse_length = side / length;
         point_to_light<N>(to_light, f);
-        floats sine = turned * (normal[0] * to_light[0] + normal[1] * to_light[1] + normal[2] * to_light[2]);
+        floats sine =
+            signed_inverse_length * (normal[0] * to_light[0] + normal[1] * to_light[1] + normal[2] * to_light[2]);
         sine = sine < 1.0f ? sine : floats{} + 1.0f;
         sine = sine > 0.0f ? sine : floats{};
 
@@ -17796,7 +17829,7 @@ class surface_shader {
         law<N>(direct, sine);
         load(intensity, intensity_), load(sky, sky_), load(ambient, ambient_);
         direct = sine > 0.0f ? reflectivity * intensity * direct : floats{};
-        const floats rest = reflectivity * (sky * (0.5f * (1.0f + turned * normal[2])) + ambient);
+        const floats rest = reflectivity * (sky * (0.5f * (1.0f + signed_inverse_length * normal[2])) + ambient);
         const floats one = floats{} + 1.0f, sum = rest + direct;
         const floats all = sum < one ? sum : one;
         if (into_.undecided == nullptr)
@@ -17868,7 +17901,7 @@ class surface_shader {
                                         const fragment_lanes<N, surface_varyings>& f) const {
         using floats = lanes<float, N>;
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { load(into[i], to_light_[i]); });
-        if (!is_near_) return;
+        if (!is_point_light_) return;
         floats altitude, step, column, height, square = floats{}, length;
         load(altitude, altitude_), load(step, ray_step_);
         iota<float, N>(column);
@@ -17896,11 +17929,11 @@ class surface_shader {
     const drawn_object& object_;
     shaded_images into_;
     Law law_;
-    bool is_near_;
+    bool is_point_light_;
     float left_, top_;           ///< from the picture's middle to the first pixel's centre, in pixels
     broadcast<float> ray_step_;  ///< see overhead_geometry::ray_step
     broadcast<float> altitude_, intensity_, sky_, ambient_;  ///< the rig's
-    broadcast<float> to_light_[3];                           ///< unit vector, or the position of a near light
+    broadcast<float> to_light_[3];                           ///< unit vector, or the position of a point light
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -17910,7 +17943,7 @@ class surface_shader {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/overhead/detail/shadow_points.hpp ------------------------------------------
-// Points that pixels show and that a shadow policy tests, and the answers.
+// Visible points that a shadow policy tests in batches, and its results.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -17944,15 +17977,15 @@ struct point_batch {
 /// away from its back.
 class point_list {
   public:
-    std::size_t facing = 0, averted = 0;
+    std::size_t facing = 0, back_facing = 0;
 
     /// @param room         the batch to fill
     /// @param first, last  the range of it for this list
     point_list(point_batch& room, std::size_t first, std::size_t last) : room_(&room), first_(first), last_(last) {}
 
-    std::size_t size() const { return facing + averted; }
+    std::size_t size() const { return facing + back_facing; }
     shadow::points facing_points() const { return room_->part(first_, facing); }
-    shadow::points averted_points() const { return room_->part(last_ - averted, averted); }
+    shadow::points back_facing_points() const { return room_->part(last_ - back_facing, back_facing); }
     /// The pixel, its light and the caster of a point; facing ones are counted first.
     std::size_t pixel(std::size_t point) const { return room_->pixel[at(point)]; }
     float direct(std::size_t point) const { return room_->direct[at(point)]; }
@@ -17960,7 +17993,7 @@ class point_list {
 
     INSONIFY_INLINE void add(bool is_facing, double x, double y, double z, std::uint32_t mesh, std::uint32_t triangle,
                              std::uint32_t pixel, float direct) {
-        const std::size_t to = is_facing ? first_ + facing++ : last_ - ++averted;
+        const std::size_t to = is_facing ? first_ + facing++ : last_ - ++back_facing;
         room_->x[to] = x;
         room_->y[to] = y;
         room_->z[to] = z;
@@ -17972,7 +18005,7 @@ class point_list {
 
   private:
     std::size_t at(std::size_t point) const {
-        return point < facing ? first_ + point : last_ - averted + (point - facing);
+        return point < facing ? first_ + point : last_ - back_facing + (point - facing);
     }
 
     point_batch* room_;
@@ -17999,14 +18032,14 @@ inline shadow::points batch(shadow::points all, bool face_light, std::uint32_t t
     return all;
 }
 
-/// Visits the batches of a list, and where their answers go.
+/// Calls visit(points, results) for each batch of a list.
 template <class Visit>
 void for_each_batch(const point_list& points, const shadow::results& all, std::uint32_t targets, const Visit& visit) {
     if (points.facing > 0)
         visit(batch(points.facing_points(), true, targets),
               shadow::results{all.lit.first(points.facing), all.caster.first(points.facing)});
-    if (points.averted > 0)
-        visit(batch(points.averted_points(), false, targets),
+    if (points.back_facing > 0)
+        visit(batch(points.back_facing_points(), false, targets),
               shadow::results{all.lit.subspan(points.facing), all.caster.subspan(points.facing)});
 }
 
@@ -18044,8 +18077,8 @@ struct view_from_object {
         corner_ray = transform_direction(back, view.ray(0, 0));
         right = transform_direction(back, view.ray(1, 0) - view.ray(0, 0));
         down = transform_direction(back, view.ray(0, 1) - view.ray(0, 0));
-        light = view.has_near_light() ? transform_point(back, view.light_position())
-                                      : transform_direction(back, view.light().to_light());
+        light = view.has_point_light() ? transform_point(back, view.light_position())
+                                       : transform_direction(back, view.light().to_light());
     }
 };
 
@@ -18054,8 +18087,8 @@ struct point_kernel {
     const drawn_object& object;
     const view_from_object& from;
     std::span<const undecided_pixel> pixels;  ///< with the ids of triangles within the object
-    bool has_near_light;
-    bool includes_averted;
+    bool has_point_light;
+    bool includes_back_facing;
     const rect& box;      ///< the tile's pixels
     std::uint32_t pitch;  ///< pixels from one row of the picture to the next
     point_list& points;
@@ -18168,7 +18201,7 @@ struct point_kernel {
         reals at[3], facet[3], toward[3], seen, along, size, way;
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             at[i] = a[i] + b * ab[i] + c * ac[i];
-            toward[i] = has_near_light ? from.light[i] - at[i] : reals{} + from.light[i];
+            toward[i] = has_point_light ? from.light[i] - at[i] : reals{} + from.light[i];
         });
         cross(facet, ab, ac);
         dot(seen, facet, to_eye);
@@ -18185,7 +18218,7 @@ struct point_kernel {
         });
         store(facing, faces);
         for (std::size_t k = 0; k < count; ++k) {
-            if (facing[k] == 0 && !includes_averted) continue;
+            if (facing[k] == 0 && !includes_back_facing) continue;
             const undecided_pixel& shown = pixels[start + k];
             points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], object.caster, shown.id,
                        static_cast<std::uint32_t>(box.y0 + shown.row) * pitch +
@@ -18242,7 +18275,8 @@ inline bool is_within_outline(const placed_mesh& m, const glm::dvec3& p) {
     const double area = g.right.x * g.up.y - g.right.y * g.up.x;
     const double column = (from.x * g.up.y - from.y * g.up.x) / area,
                  row = (g.right.x * from.y - g.right.y * from.x) / area;
-    return column >= g.off && column <= g.columns - 1 - g.off && row >= g.off && row <= g.rows - 1 - g.off;
+    return column >= g.lattice_error && column <= g.columns - 1 - g.lattice_error && row >= g.lattice_error &&
+           row <= g.rows - 1 - g.lattice_error;
 }
 
 /// A mesh as a caster, and which of its triangles may be skipped for points that the camera sees.
@@ -18260,14 +18294,14 @@ inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh
         return outside;
     };
     const auto is_above = [&](const glm::dvec3& p) { return p.z > m.box.upper.z; };
-    const bool is_lit_from_above = view.has_near_light() ? is_above(from.light) : from.light.z > 0;
-    const bool is_lit_from_outside = !view.has_near_light() || is_outside(from.light);
+    const bool is_lit_from_above = view.has_point_light() ? is_above(from.light) : from.light.z > 0;
+    const bool is_lit_from_outside = !view.has_point_light() || is_outside(from.light);
     shadow::skip may_skip = shadow::skip::nothing;
     if (m.kind == surface_kind::closed && is_whole && is_outside(from.eye) && is_lit_from_outside)
         may_skip = shadow::skip::facing;
     if (m.kind == surface_kind::heightfield && is_whole && is_above(from.eye) && is_within_outline(m, from.eye) &&
         is_lit_from_above)
-        may_skip = shadow::skip::facing_its_own;
+        may_skip = shadow::skip::facing_self;
     return {m.shape, m.to_rig, m.box, may_skip, m.grid};
 }
 
@@ -18353,7 +18387,7 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
                        .spacing = where.spacing};
     const std::vector<type_properties> legend = legend_of(source);
     for (const type_properties& t : legend)
-        if (index_of(t.label) >= type_count) result.own_types.push_back(t);
+        if (index_of(t.label) >= type_count) result.user_types.push_back(t);
     if (const std::optional<type> only = only_type(source))
         result.fallback = *only;
     else
@@ -18383,7 +18417,7 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/seabed/detail/rise.hpp -----------------------------------------------------------
+// ------------ insonify/seabed/detail/central_difference.hpp ---------------------------------------------
 // Central differences of sampled heights, one-sided at edges and gaps.
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -18395,7 +18429,7 @@ namespace seabed::detail::inline INSONIFY_FLAGS {
 /// Twice the height difference per cell. At an edge or beside a missing vertex, the one-sided difference doubled; 0 at
 /// a vertex without data.
 /// @param both  whether the grid has vertices on both sides; at an edge, `at` is passed for the missing one
-inline float rise(float before, float at, float after, bool both = true) {
+inline float central_difference(float before, float at, float after, bool both = true) {
     if (!numeric::is_finite(at)) return 0;
     const bool has_before = numeric::is_finite(before), has_after = numeric::is_finite(after);
     if (has_before && has_after) return both ? after - before : 2 * (after - before);
@@ -18476,8 +18510,8 @@ class row_normals {
   private:
     void compute_one(std::size_t i) const {
         const std::size_t left = i > 0 ? i - 1 : i, right = i + 1 < width_ ? i + 1 : i;
-        const float dx = rise(here_[left], here_[i], here_[right], right - left == 2);
-        const float dy = rise(back_[i], here_[i], ahead_[i], inner_);
+        const float dx = central_difference(here_[left], here_[i], here_[right], right - left == 2);
+        const float dy = central_difference(back_[i], here_[i], ahead_[i], inner_);
         const float inverse = 1 / numeric::square_root(dx * dx + dy * dy + z_ * z_);
         out_[i] = {(0.0f - dx) * inverse, (0.0f - dy) * inverse, z_ * inverse};
     }
@@ -18716,7 +18750,7 @@ class sampled_bottom {
                              .origin = field_.spacing * glm::dvec2(first_),
                              .right = {field_.spacing, 0},
                              .up = {0, field_.spacing},
-                             .off = 0x1p-23 * farthest};  // rounded to float, in either direction
+                             .lattice_error = 0x1p-23 * farthest};  // rounded to float, in either direction
     }
 
     seabed::heightfield field_;
@@ -18830,7 +18864,7 @@ class shadow_pass {
         const rect pixels = pixels_of(tile);
         for (std::size_t i = 0; i < frames_.size(); ++i) {
             if (shown[i].empty()) continue;
-            dispatch(point_kernel{objects_[i], frames_[i], shown[i], view_.has_near_light(), labelled, pixels,
+            dispatch(point_kernel{objects_[i], frames_[i], shown[i], view_.has_point_light(), labelled, pixels,
                                   static_cast<std::uint32_t>(images_.picture.width()), into},
                      level_);
             shown[i].clear();
@@ -18937,10 +18971,10 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// A picture under construction, in the rig's frame.
 template <class Shadow, class Labels, class Law, depth_precision Depth>
-class overhead_painter {
+class overhead_renderer {
   public:
-    overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
-                     executor_ref ex)
+    overhead_renderer(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
+                      executor_ref ex)
         : scene_(s), materials_(checked_materials(s, options)), view_(rig), options_(options), bottom_(memory_of(ex)) {
         static_assert(shadow::policy<Shadow>,
                       "a shadow policy has build(casters, light, bounds, executor) const, which returns an object with "
@@ -18959,7 +18993,7 @@ class overhead_painter {
         }
     }
 
-    frame<Labels> paint(executor_ref ex) {
+    frame<Labels> render_frame(executor_ref ex) {
         if constexpr (casts) {
             dynamic_array<shadow::caster> casters;
             for (const drawn_object& t : targets()) casters.push_back(as_caster(view_, t.placed));
@@ -18983,7 +19017,7 @@ class overhead_painter {
     }
 
     /// The visibility buffer alone.
-    visibility see(executor_ref ex) {
+    visibility render_visibility(executor_ref ex) {
         draw_all(ex);
         visibility shown{image<std::uint16_t>(ids_.width(), ids_.height(), labels::no_instance), std::move(ids_)};
         for (std::size_t i = 0; i < shown.triangle.size(); ++i) {
@@ -19101,7 +19135,7 @@ class overhead_painter {
     }
 
     draw_options<Depth> draw_options_of(depth_load load) const {
-        return {.keep = keep_depth::larger,
+        return {.compare = depth_compare::greater,
                 .load = load,
                 .subpixel_bits = options_.subpixel_bits,
                 .tile = options_.tile,
@@ -19186,30 +19220,30 @@ namespace accuracy {
 
 /// Counts of pixels; a pixel other than 0 belongs to the mask.
 struct mask_difference {
-    std::size_t common = 0;           ///< in both masks
-    std::size_t false_pixels = 0;     ///< in the result, not in the truth: for shadows, acne
-    std::size_t missed_pixels = 0;    ///< in the truth, not in the result: for shadows, light leaks
+    std::size_t true_positives = 0;   ///< in both masks
+    std::size_t false_positives = 0;  ///< in the result, not in the truth: for shadows, acne
+    std::size_t false_negatives = 0;  ///< in the truth, not in the result: for shadows, light leaks
     std::size_t boundary_pixels = 0;  ///< of the truth: in the mask, with a 4-neighbour in the image that is not
 
-    INSONIFY_MEMBER std::size_t wrong_pixels() const { return false_pixels + missed_pixels; }
+    INSONIFY_MEMBER std::size_t wrong_pixels() const { return false_positives + false_negatives; }
 
     /// Of several pictures together.
     INSONIFY_MEMBER mask_difference& operator+=(const mask_difference& other) {
-        common += other.common;
-        false_pixels += other.false_pixels;
-        missed_pixels += other.missed_pixels;
+        true_positives += other.true_positives;
+        false_positives += other.false_positives;
+        false_negatives += other.false_negatives;
         boundary_pixels += other.boundary_pixels;
         return *this;
     }
 
     /// Intersection over union (Jaccard index), 1 when both masks are empty.
     INSONIFY_MEMBER double intersection_over_union() const {
-        const std::size_t joined = common + wrong_pixels();
-        return joined == 0 ? 1.0 : static_cast<double>(common) / static_cast<double>(joined);
+        const std::size_t joined = true_positives + wrong_pixels();
+        return joined == 0 ? 1.0 : static_cast<double>(true_positives) / static_cast<double>(joined);
     }
     /// Mean displacement of the boundary along its length, pixels: wrong pixels over boundary pixels. Infinite if there
-    /// are wrong pixels but no boundary. A missing feature contributes its area over the length of its boundary, at
-    /// most half its width, however far it is from any other.
+    /// are wrong pixels but no boundary. A missing feature contributes its area over the length of its boundary,
+    /// about half its width, however far it is from any other.
     INSONIFY_TAGGED double mean_boundary_displacement() const {
         if (wrong_pixels() == 0) return 0;
         if (boundary_pixels == 0) return std::numeric_limits<double>::infinity();
@@ -19284,10 +19318,10 @@ inline mask_difference compare_masks(image_view<const std::uint8_t> result, imag
         for (int x = 0; x < width; ++x) {
             const bool found = result(x, y) != 0;
             if (truth(x, y) == 0) {
-                out.false_pixels += found ? 1 : 0;
+                out.false_positives += found ? 1 : 0;
                 continue;
             }
-            (found ? out.common : out.missed_pixels) += 1;
+            (found ? out.true_positives : out.false_negatives) += 1;
             const bool boundary = (x > 0 && truth(x - 1, y) == 0) || (x + 1 < width && truth(x + 1, y) == 0) ||
                                   (y > 0 && truth(x, y - 1) == 0) || (y + 1 < height && truth(x, y + 1) == 0);
             out.boundary_pixels += boundary ? 1 : 0;
@@ -19342,7 +19376,8 @@ struct probe {
     /// Cells per pixel of the ground truth, and the most that settings take; grids of more than half as many are
     /// compared with a truth of twice as many.
     double finest = 4;
-    double usable_share = 0.7;  ///< fraction of the budget that they may use; the rest is for other parts of the seabed
+    double usable_fraction =
+        0.7;  ///< fraction of the budget that they may use; the rest is for other parts of the seabed
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -19377,18 +19412,18 @@ class seabed_probe {
             const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
             chip.position +=
                 glm::dvec2(in_picture.x * cosine - in_picture.y * sine, in_picture.x * sine + in_picture.y * cosine);
-            if (view.has_near_light()) {  // the light keeps its position in the world
+            if (view.has_point_light()) {  // the light keeps its position in the world
                 const glm::dvec3 light = view.light_position() - glm::dvec3(in_picture, 0);
                 const double level = numeric::square_root(light.x * light.x + light.y * light.y);
                 chip.light_distance = static_cast<float>(numeric::square_root(level * level + light.z * light.z));
-                chip.grazing = static_cast<float>(numeric::atan2(light.z, level));
+                chip.grazing = (std::max)(static_cast<float>(numeric::atan2(light.z, level)), 1e-9f);
                 chip.light_azimuth = static_cast<float>(numeric::atan2(-light.y, -light.x));
             }
             chip.size = {pixels_, pixels_};
             const double half = view.half_extent(0).x * pixels_ / rig.size.x;
             chip.field_of_view = static_cast<float>(2 * numeric::atan2(half, static_cast<double>(rig.altitude)));
             chips_.push_back(chip);
-            truths_.push_back(draw(chip, how.finest, shadow, ex));
+            truths_.push_back(render_chip(chip, how.finest, shadow, ex));
         }
     }
 
@@ -19398,11 +19433,11 @@ class seabed_probe {
         accuracy::mask_difference edges;
         double squares = 0, pixels = 0, heights = 0;
         for (std::size_t i = 0; i < chips_.size(); ++i) {
-            const auto result = draw(chips_[i], cells_per_pixel, shadow, ex);
+            const auto result = render_chip(chips_[i], cells_per_pixel, shadow, ex);
             edges += accuracy::compare_masks(result.dark, truths_[i].dark);
-            const auto off = accuracy::compare_images(result.values, truths_[i].values);
-            squares += off.mean_square * static_cast<double>(off.pixels);
-            pixels += static_cast<double>(off.pixels);
+            const auto difference = accuracy::compare_images(result.values, truths_[i].values);
+            squares += difference.mean_square * static_cast<double>(difference.pixels);
+            pixels += static_cast<double>(difference.pixels);
             heights += mean_square_height_error(chips_[i], cells_per_pixel) / static_cast<double>(chips_.size());
         }
         accuracy::errors all{.shadow_edge = 0, .silhouette = 0};
@@ -19422,12 +19457,12 @@ class seabed_probe {
     };
 
     template <class Shadow, executor E>
-    picture draw(const overhead& chip, double cells_per_pixel, const Shadow& shadow, E& ex) const {
+    picture render_chip(const overhead& chip, double cells_per_pixel, const Shadow& shadow, E& ex) const {
         const render_options<Shadow> options{.shadow = shadow,
                                              .cell = overhead_geometry(chip).ground_sampling() / cells_per_pixel};
         auto drawn = render(scene_, chip, options, ex);
         return {std::move(drawn.image), map_pixels(drawn.labels.shadow, [](std::uint16_t by) {
-                    return static_cast<std::uint8_t>(by != labels::is_lit);
+                    return static_cast<std::uint8_t>(by != labels::no_shadow);
                 })};
     }
 
@@ -19452,10 +19487,10 @@ class seabed_probe {
                                         .grid_spacing = pixel_ / how_.finest};
             prepared.row(line, heights, {});
             for (std::size_t i = 0; i < heights.size(); ++i) {
-                const double off =
+                const double difference =
                     static_cast<double>(heights[i]) - static_cast<double>(field.height_at(line.x(i), line.y));
-                if (!numeric::is_finite(off)) continue;
-                sum += off * off;
+                if (!numeric::is_finite(difference)) continue;
+                sum += difference * difference;
                 ++known;
             }
         }
@@ -19496,9 +19531,9 @@ inline int max_subpixel_bits(const overhead& rig) {
     return (std::max)(rig.size.x, rig.size.y) > 16384 ? 15 : 16;
 }
 
-/// Cotangent of the light's elevation where it is lowest in the picture.
+/// Upper bound of the cotangent of the light's elevation in the picture.
 inline double largest_cot_elevation(const overhead_geometry& view) {
-    if (!view.has_near_light()) return view.light().cot_elevation();
+    if (!view.has_point_light()) return view.light().cot_elevation();
     const glm::dvec3 light = view.light_position();
     const glm::dvec2 corner = view.half_extent(0);
     return (numeric::square_root(light.x * light.x + light.y * light.y) +
@@ -19590,7 +19625,7 @@ struct settings {
 
     /// A distance across the ray of light that grazes a ball's far side, over that by which it moves the shadow's edge.
     INSONIFY_TAGGED static double across_light(const overhead_geometry& view, const glm::dvec3& centre, double radius) {
-        if (!view.has_near_light()) return view.light().to_light().z;
+        if (!view.has_point_light()) return view.light().to_light().z;
         const glm::dvec3 light = view.light_position();
         const double above = (std::max)(light.z - centre.z - radius, 0.05 * light.z);
         const double x = centre.x - light.x, y = centre.y - light.y;
@@ -19631,7 +19666,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     detail::require_range("probe.chips", how.chips, 1, 1024, "1 to 1024");
     detail::require_range("probe.pixels", how.pixels, 1, 2048, "1 to 2048");
     detail::require_range("probe.finest", how.finest, 1, 8, "1 to 8 cells per pixel");
-    require(how.usable_share > 0 && how.usable_share <= 1, "probe.usable_share", how.usable_share,
+    require(how.usable_fraction > 0 && how.usable_fraction <= 1, "probe.usable_fraction", how.usable_fraction,
             "above 0 and at most 1");
 
     const overhead_geometry view(rig);
@@ -19663,8 +19698,9 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         if (is_fine && !finer) {
             probe twice = how;
             twice.finest *= 2;
-            // A picture has at most 32768 cells a side, and 2^28 altogether.
-            twice.pixels = (std::min)(twice.pixels, static_cast<int>(12000 / twice.finest));
+            // With the ground towards a low light a grid is up to 9 times as long as the picture along either axis, and
+            // has at most 2^28 vertices.
+            twice.pixels = (std::min)(twice.pixels, static_cast<int>(1700 / twice.finest));
             finer.emplace(bottom, rig, twice, truth{}, ex);
         }
         errors all = (is_fine ? *finer : probed).errors_of(cells_per_pixel, policy, ex);
@@ -19674,8 +19710,8 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         all.silhouette = tolerated.silhouette;
         return all;
     };
-    const budget usable{how.usable_share * tolerated.shadow_edge, tolerated.silhouette,
-                        how.usable_share * tolerated.height, how.usable_share * tolerated.intensity};
+    const budget usable{how.usable_fraction * tolerated.shadow_edge, tolerated.silhouette,
+                        how.usable_fraction * tolerated.height, how.usable_fraction * tolerated.intensity};
 
     // From the coarsest grid on, halving the cells each time, at first with more texels than can matter. If no grid is
     // within the budget, the one that exceeds it least is taken.
@@ -19866,12 +19902,12 @@ class poisson_law {
         double mean[run_length], count[run_length];
         pixel_list open;
         for (int i = 0; i < run.count; ++i) {
-            count[i] = mean[i] = static_cast<double>(clip_to_unit(from[i]) * photons_);
+            count[i] = mean[i] = static_cast<double>(saturate(from[i]) * photons_);
             add_if(mean[i] == mean[i], i, open.places, open.count);
         }
         dispatch(rejection_kernel<poisson_counts>{{}, mean, count, &open, run, noise_}, best_isa());
         for (int i = 0; i < run.count; ++i)
-            to[i] = clip_to_unit(static_cast<float>(count[i] / static_cast<double>(photons_)));
+            to[i] = saturate(static_cast<float>(count[i] / static_cast<double>(photons_)));
     }
     void prepare(const pixel_area&) {}
 
@@ -20019,16 +20055,16 @@ class flat_polygon {
         v_ = (away + (area[away] < 0 ? 1 : 2)) % 3;
     }
 
-    /// Twice the area of the triangle, positive for a left turn at b.
-    double turn(std::size_t a, std::size_t b, std::size_t c) const {
+    /// Twice the area of the triangle, positive for a left orient2d at b.
+    double orient2d(std::size_t a, std::size_t b, std::size_t c) const {
         const glm::dvec2 p = at(a), q = at(b), r = at(c);
         return (q.x - p.x) * (r.y - q.y) - (q.y - p.y) * (r.x - q.x);
     }
     /// Whether a point lies inside or on the border of a triangle, and not at one of its corners.
     bool covered(std::size_t point, std::size_t a, std::size_t b, std::size_t c) const {
         const glm::dvec2 p = at(point);
-        return turn(a, b, point) >= 0 && turn(b, c, point) >= 0 && turn(c, a, point) >= 0 && p != at(a) && p != at(b) &&
-               p != at(c);
+        return orient2d(a, b, point) >= 0 && orient2d(b, c, point) >= 0 && orient2d(c, a, point) >= 0 && p != at(a) &&
+               p != at(b) && p != at(c);
     }
 
   private:
@@ -20047,7 +20083,7 @@ inline void clip_ears(const flat_polygon& polygon, std::uint32_t count, std::vec
     dynamic_array<corner> ring(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         ring[i] = {(i + count - 1) % count, (i + 1) % count, false, false};
-        ring[i].reflex = polygon.turn(ring[i].previous, i, ring[i].next) < 0;
+        ring[i].reflex = polygon.orient2d(ring[i].previous, i, ring[i].next) < 0;
     }
 
     // The diagonal of an ear lies inside the polygon, which is so if no reflex corner lies in the ear.
@@ -20068,7 +20104,7 @@ inline void clip_ears(const flat_polygon& polygon, std::uint32_t count, std::vec
         triangles.emplace_back(a, tip, b);
         ring[a].next = b;
         ring[b].previous = a;
-        for (const std::uint32_t i : {a, b}) ring[i].reflex = polygon.turn(ring[i].previous, i, ring[i].next) < 0;
+        for (const std::uint32_t i : {a, b}) ring[i].reflex = polygon.orient2d(ring[i].previous, i, ring[i].next) < 0;
         for (const std::uint32_t i : {a, b}) ring[i].ear = is_ear(i);
         tip = ring[b].next;  // every other ear first: fewer slivers
     }
@@ -20082,7 +20118,7 @@ inline bool append_triangles(std::span<const glm::vec3> corners, std::vector<glm
     if (count > 3) {
         const flat_polygon polygon(corners);
         for (std::uint32_t i = 0; i < count; ++i) {
-            if (!(polygon.turn(i, (i + 1) % count, (i + 2) % count) < 0)) continue;
+            if (!(polygon.orient2d(i, (i + 1) % count, (i + 2) % count) < 0)) continue;
             if (count > ear_clipping_limit) return false;
             clip_ears(polygon, count, triangles);
             return true;
@@ -20127,7 +20163,7 @@ inline namespace INSONIFY_ABI {
 /// A mesh with texture coordinates, for shaders to look up by `vertex::index`.
 struct textured_mesh {
     mesh shape;
-    std::vector<glm::vec2> texture;  ///< one per position; (0, 0) is the lower left corner of the texture
+    std::vector<glm::vec2> texture_coordinates;  ///< one per position; (0, 0) is the lower left corner of the texture
 };
 
 namespace detail::inline INSONIFY_FLAGS {
@@ -20168,7 +20204,7 @@ class obj_reader {
             else if (keyword == "vn")
                 normals_.push_back(vector(glm::dvec3(0)));
             else if (keyword == "vt" && reads_texture_)
-                texture_.push_back(texture_coordinate());
+                texture_coordinates_.push_back(texture_coordinate());
             else if (keyword == "f")
                 face();
             finish_line();
@@ -20291,7 +20327,7 @@ class obj_reader {
         const std::size_t second = slash == text.npos ? text.npos : text.find('/', slash + 1);
         corner out{index(text.substr(0, slash), positions_.size(), "position"), none, none};
         if (reads_texture_ && slash != text.npos && slash + 1 < (std::min)(second, text.size()))
-            out.texture = index(text.substr(slash + 1, second - slash - 1), texture_.size(), "texture");
+            out.texture = index(text.substr(slash + 1, second - slash - 1), texture_coordinates_.size(), "texture");
         if (second != text.npos && second + 1 < text.size())
             out.normal = index(text.substr(second + 1), normals_.size(), "normal");
         return out;
@@ -20343,7 +20379,9 @@ class obj_reader {
                     complete = complete && length > 0;
                     out.positions.push_back(positions_[p]);
                     out.normals.push_back(length > 0 ? glm::vec3(n / length) : glm::vec3(0));
-                    if (has_texture) all.texture.push_back(texture == none ? glm::vec2(0) : texture_[texture]);
+                    if (has_texture)
+                        all.texture_coordinates.push_back(texture == none ? glm::vec2(0)
+                                                                          : texture_coordinates_[texture]);
                 }
                 vertex[*at] = static_cast<std::uint32_t>(out.positions.size() - 1);
             }
@@ -20368,7 +20406,7 @@ class obj_reader {
     std::size_t at_ = 0;
     std::size_t line_ = 1;
     std::vector<glm::vec3> positions_, normals_;
-    std::vector<glm::vec2> texture_;
+    std::vector<glm::vec2> texture_coordinates_;
     std::vector<corner> corners_;  // three per triangle
     std::vector<corner> polygon_;  // the face being read
     std::vector<glm::vec3> outline_;
@@ -21190,16 +21228,16 @@ inline void validate(const boulder& b) {
 /// @throws invalid_input as `validate` does
 inline mesh to_mesh(const boulder& b) {
     validate(b);
-    random_sequence draw(b.seed, 0x726F636B);
+    random_sequence random(b.seed, 0x726F636B);
     struct fracture {
         glm::dvec3 normal;
         double distance;
     };
     std::vector<fracture> fractures;
     for (int i = 0; i < 16; ++i) {
-        const double z = draw.uniform(-1, 1), turns = draw.uniform(), r = numeric::square_root(1 - z * z);
+        const double z = random.uniform(-1, 1), turns = random.uniform(), r = numeric::square_root(1 - z * z);
         const auto [sine, cosine] = numeric::sin_cos_turns(turns);
-        fractures.push_back({{r * cosine, r * sine, z}, draw.uniform(0.55, 0.9)});
+        fractures.push_back({{r * cosine, r * sine, z}, random.uniform(0.55, 0.9)});
     }
     const philox_key key = stream_key(b.seed, 0x726F636C);
 
@@ -21279,8 +21317,8 @@ inline mesh to_mesh(const crate& c) {
     const glm::dvec3 half = glm::dvec3(c.size) * glm::dvec3(0.5, 0.5, 1);
     const double t = static_cast<double>(c.board);
     mesh body;
-    random_sequence draw(c.seed, 0x62726474);
-    const auto stays = [&] { return draw.uniform() >= static_cast<double>(c.damage); };
+    random_sequence random(c.seed, 0x62726474);
+    const auto stays = [&] { return random.uniform() >= static_cast<double>(c.damage); };
     // The extent of board i of a row that fills [low, high].
     struct extent {
         double low, high;
@@ -21519,8 +21557,8 @@ class hull_lines {
         const double keel = taper((u - 0.55) / 0.45, 1.6) * taper((0.35 - u) / 0.35, 1.5);
         const double flare = numeric::pow(w, 1.4);
         const double plan = keel + (deck - keel) * flare;
-        const double rise = w < 0.25 ? 1 - w / 0.25 : 0.0;
-        const double bilge = 0.7 + 0.3 * numeric::square_root(1 - rise * rise);
+        const double toward_keel = w < 0.25 ? 1 - w / 0.25 : 0.0;
+        const double bilge = 0.7 + 0.3 * numeric::square_root(1 - toward_keel * toward_keel);
         return (std::max)(half_beam_ * plan * bilge, 0.6 * plating_);
     }
 
@@ -21830,11 +21868,11 @@ inline void append_machinery(mesh& into, const hull& h, const hull_lines& lines,
 
 /// Plates and beams that lie in and beside a collapsed ship.
 inline void append_debris(mesh& into, const hull_lines& lines, const stretch_of_hull& part, int pieces,
-                          random_sequence& draw) {
+                          random_sequence& random) {
     for (int i = 0; i < pieces; ++i) {
-        const double u = draw.uniform(0.03, 0.97), side = draw.uniform() < 0.5 ? -1 : 1;
-        const double away = draw.uniform(0.15, 1.9), turns = draw.uniform(), tilt = draw.uniform(0.02, 0.3);
-        const double size = lines.half_beam() * draw.uniform(0.04, 0.24), shape = draw.uniform(0.06, 0.5);
+        const double u = random.uniform(0.03, 0.97), side = random.uniform() < 0.5 ? -1 : 1;
+        const double away = random.uniform(0.15, 1.9), turns = random.uniform(), tilt = random.uniform(0.02, 0.3);
+        const double size = lines.half_beam() * random.uniform(0.04, 0.24), shape = random.uniform(0.06, 0.5);
         if (!part.contains(u)) continue;
         const auto [sine, cosine] = numeric::sin_cos_turns(turns);
         const glm::dvec3 along(size * cosine, size * sine, size * tilt),
@@ -21888,12 +21926,12 @@ inline std::vector<deck_plate> hatches_of(const hull& h) {
 }
 
 /// Deck beams of a collapsed ship, which outlast the planks above them.
-inline void append_beams(mesh& into, const hull_lines& lines, const stretch_of_hull& part, random_sequence& draw) {
+inline void append_beams(mesh& into, const hull_lines& lines, const stretch_of_hull& part, random_sequence& random) {
     const double c = lines.collapse();
     const int beams = 28;
     for (int i = 1; c > 0 && i < beams; ++i) {
-        const double u = 0.04 + 0.9 * (i + 0.31) / beams, drop = draw.uniform();
-        if (draw.uniform() < c * c * 1.1 || !part.contains(u)) continue;
+        const double u = 0.04 + 0.9 * (i + 0.31) / beams, drop = random.uniform();
+        if (random.uniform() < c * c * 1.1 || !part.contains(u)) continue;
         const double low = lines.deck_height(u) * (1 - 0.25 * c * drop) - 2 * lines.plating(),
                      w = 0.85 * lines.deck_w(u);
         const glm::dvec3 port = lines.between(u, w, 0.98, low), starboard = lines.between(u, w, -0.98, low);
@@ -21905,7 +21943,7 @@ inline void append_beams(mesh& into, const hull_lines& lines, const stretch_of_h
 
 /// Decks with hatch openings and coamings. In a collapsed ship the plating is in pieces, some of which are missing.
 inline void append_decks(mesh& into, const hull& h, const hull_lines& lines, const stretch_of_hull& part,
-                         random_sequence& draw) {
+                         random_sequence& random) {
     const std::vector<deck_plate> hatches = hatches_of(h);
     const double c = lines.collapse();
     std::vector<deck_plate> plates;
@@ -21924,7 +21962,7 @@ inline void append_decks(mesh& into, const hull& h, const hull_lines& lines, con
             const double pitch = (whole.to - whole.from) / pieces;
             plate.from = (std::max)(whole.from + pitch * (i + (c > 0 ? 0.02 : 0.0)), part.from);
             plate.to = (std::min)(whole.from + pitch * (i + 1 - (c > 0 ? 0.02 : 0.0)), part.to);
-            if (draw.uniform() < 1.15 * c || plate.to - plate.from < 0.002) continue;
+            if (random.uniform() < 1.15 * c || plate.to - plate.from < 0.002) continue;
             append_deck(into, lines, plate, h.segments);
         }
     }
@@ -21939,7 +21977,7 @@ inline hull_parts build_hull(const hull& h, const stretch_of_hull& part) {
     const hull_lines lines(h);
     hull_parts out;
     const auto of = [&](hull_part p) -> mesh& { return out[static_cast<std::size_t>(p)]; };
-    random_sequence draw(h.seed, 0x77726563);
+    random_sequence random(h.seed, 0x77726563);
 
     append_plating(of(hull_part::plating), lines, part, h.segments);
     if (part.from <= 0)
@@ -21953,15 +21991,15 @@ inline hull_parts build_hull(const hull& h, const stretch_of_hull& part) {
         const double u = 0.03 + 0.93 * (i + 0.17) / frames;
         for (const double side : {-1.0, 1.0}) {
             // Frames outlast the plates between them.
-            const double extra = 0.3 * lines.collapse() * draw.uniform();
+            const double extra = 0.3 * lines.collapse() * random.uniform();
             if (part.contains(u))
                 append_frame(of(hull_part::plating), lines, u, side,
                              (std::min)(lines.standing(u, side) + extra - 0.02, 0.97 * lines.deck_w(u)),
                              (std::max)(0.05 * lines.half_beam(), lines.plating()));
         }
     }
-    append_decks(of(hull_part::decks), h, lines, part, draw);
-    append_beams(of(hull_part::decks), lines, part, draw);
+    append_decks(of(hull_part::decks), h, lines, part, random);
+    append_beams(of(hull_part::decks), lines, part, random);
     append_house(of(hull_part::house), h, lines, part);
     const stretch_of_hull house = house_of(h);
     for (int i = 0; i < h.masts; ++i) {
@@ -21971,7 +22009,7 @@ inline hull_parts build_hull(const hull& h, const stretch_of_hull& part) {
         if (part.contains(u)) append_mast(of(hull_part::rigging), h, lines, u, i % 2 == 0 ? 1 : -1);
     }
     if (lines.collapse() > 0.25 && h.has_funnel) append_machinery(of(hull_part::machinery), h, lines, part);
-    append_debris(of(hull_part::debris), lines, part, static_cast<int>(60 * lines.collapse()), draw);
+    append_debris(of(hull_part::debris), lines, part, static_cast<int>(60 * lines.collapse()), random);
     return out;
 }
 
@@ -21994,14 +22032,14 @@ inline compound to_compound(const hull& h) {
         all = detail::build_hull(h, {0, at});
         // The bow half turns about the break, and rises by what its roll would sink into the bottom.
         const double x = (at - 0.5) * static_cast<double>(h.length);
-        const auto turned = [&](float roll) {
+        const auto rolled = [&](float roll) {
             return compose(
                 to_world({.position = {x + static_cast<double>(h.break_gap), 0, 0}, .yaw = h.break_yaw, .roll = roll}),
                 {glm::dmat3(1), {-x, 0, 0}});
         };
         const detail::hull_parts bow = detail::build_hull(h, {at, 1});
         // What collapsed lies flatter, and what fell off it lies on the bottom.
-        const affine turn = turned(h.break_roll * (1 - h.collapse)), level = turned(0);
+        const affine turn = rolled(h.break_roll * (1 - h.collapse)), level = rolled(0);
         double lowest = 0;
         for (const glm::vec3& p : bow[static_cast<std::size_t>(detail::hull_part::plating)].positions)
             lowest = (std::min)(lowest, transform_point(turn, glm::dvec3(p)).z);
@@ -22213,7 +22251,7 @@ inline mesh to_mesh(const open_pipe& p) {
     validate(p);
     const double radius = 0.5 * static_cast<double>(p.diameter), bore = radius - static_cast<double>(p.wall);
     const double half = 0.5 * static_cast<double>(p.length);
-    random_sequence draw(p.seed, 0x70697065);
+    random_sequence random(p.seed, 0x70697065);
     double ragged = 0;
 
     // Each section is the cut of the wall at one angle: a ring of them, closed on itself.
@@ -22233,7 +22271,7 @@ inline mesh to_mesh(const open_pipe& p) {
     for (std::uint32_t i = 0; i < segments; ++i) {
         const auto [sine, cosine] = numeric::sin_cos_turns(static_cast<double>(i) / p.segments);
         // A broken edge tears in steps: a slow walk with a jump at every segment.
-        ragged = 0.6 * ragged + 0.4 * draw.uniform();
+        ragged = 0.6 * ragged + 0.4 * random.uniform();
         const double torn = i == 0 ? 0.0 : static_cast<double>(p.broken) * ragged;
         for (const corner& c : outline) {
             const double x = c.x - (c.x > 0 ? torn : 0.0);
@@ -22315,25 +22353,25 @@ inline mesh to_mesh(const truncated_cone& c) {
     const double slant = numeric::square_root(deck * deck + (base - top) * (base - top));
 
     // Normals come from the creases; those of the two poles make one vertex of each.
-    std::vector<outline_point> outline = {{0, 0, 0, -1}, {base, 0, 1, 0}};
+    std::vector<profile_point> profile = {{0, 0, 0, -1}, {base, 0, 1, 0}};
     if (c.shoulder > 0) {
         // A quadratic curve from the side to the top, tangent to both.
         const double cut = static_cast<double>(c.shoulder);
         const double from_r = top + cut * (base - top) / slant, from_z = deck - cut * deck / slant;
         for (int i = 0; i <= 4; ++i) {
             const double t = i / 4.0, a = (1 - t) * (1 - t), b = 2 * t * (1 - t), d = t * t;
-            outline.push_back({a * from_r + b * top + d * (top - cut), a * from_z + (b + d) * deck, 1, 0});
+            profile.push_back({a * from_r + b * top + d * (top - cut), a * from_z + (b + d) * deck, 1, 0});
         }
     } else {
-        outline.push_back({top, deck, 1, 0});
+        profile.push_back({top, deck, 1, 0});
     }
     if (has_boss) {
         const double boss = 0.5 * static_cast<double>(c.boss_diameter);
-        outline.push_back({boss, deck, 1, 0});
-        outline.push_back({0.9 * boss, static_cast<double>(c.height), 1, 0});
+        profile.push_back({boss, deck, 1, 0});
+        profile.push_back({0.9 * boss, static_cast<double>(c.height), 1, 0});
     }
-    outline.push_back({0, static_cast<double>(c.height), 0, 1});
-    mesh body = revolve(outline, c.segments);
+    profile.push_back({0, static_cast<double>(c.height), 0, 1});
+    mesh body = revolve(profile, c.segments);
 
     // Lugs are half rings that stand out of the side above its middle.
     for (int i = 0; i < c.lugs; ++i) {
@@ -22405,7 +22443,7 @@ inline mesh to_mesh(const tyre& t) {
     const double rim = 0.5 * static_cast<double>(t.rim_diameter), wall = static_cast<double>(t.wall);
     const double ring = 0.5 * static_cast<double>(t.diameter) - rim, half = 0.5 * static_cast<double>(t.width);
     const int steps = 2 * ((std::max)(t.segments / 8, 3));  // even: one point lies on the widest circle
-    std::vector<outline_point> outline;
+    std::vector<profile_point> profile;
     const auto add_arc = [&](double radial, double axial, bool upwards) {
         for (int i = 0; i <= steps; ++i) {
             const double turns = (upwards ? 1 : -1) * (0.5 * i / steps - 0.25);
@@ -22413,19 +22451,19 @@ inline mesh to_mesh(const tyre& t) {
             if (i == 0 || i == steps) cosine = 0;
             const double out = cosine > 0 ? numeric::pow(cosine, 2 / 3.2) : 0.0;
             const double up = numeric::pow(numeric::abs(sine), 2 / 3.2);
-            outline.push_back({rim + radial * out, half + (sine < 0 ? -up : up) * axial, 1, 0});
+            profile.push_back({rim + radial * out, half + (sine < 0 ? -up : up) * axial, 1, 0});
         }
     };
     add_arc(ring, half, true);
     add_arc(ring - wall, half - wall, false);
-    outline.push_back(outline.front());
-    mesh body = revolve(outline, t.segments);
+    profile.push_back(profile.front());
+    mesh body = revolve(profile, t.segments);
 
     if (t.fill > 0) {
         // The sediment ends in the cavity, at 0.3 of its depth, where the cavity is higher than the sediment ever is.
         const double inner = 0.9 * (half - wall), bottom = half - inner, reach = rim + 0.3 * (ring - wall);
         const double surface = bottom + 2 * inner * static_cast<double>(t.fill);
-        const std::vector<outline_point> sediment = {
+        const std::vector<profile_point> sediment = {
             {0, bottom, 0, -1}, {reach, bottom, 1, 0}, {reach, surface, 1, 0}, {0, surface, 0, 1}};
         detail::append(body, revolve(sediment, t.segments));
     }
@@ -22685,8 +22723,8 @@ inline double distance_to_path(const glm::dvec2& p, const std::vector<glm::dvec2
 
 /// Signed distance of a position from the border of an area, metres, positive inside.
 inline double signed_distance(const disc& d, const glm::dvec2& p) {
-    const glm::dvec2 off = p - d.centre;
-    return static_cast<double>(d.radius) - numeric::square_root(off.x * off.x + off.y * off.y);
+    const glm::dvec2 offset = p - d.centre;
+    return static_cast<double>(d.radius) - numeric::square_root(offset.x * offset.x + offset.y * offset.y);
 }
 inline double signed_distance(const band& b, const glm::dvec2& p) {
     return 0.5 * static_cast<double>(b.width) - distance_to_path(p, b.path);
@@ -23306,15 +23344,15 @@ class border {
     };
     /// The upper surface at progress `t`; at 0 exactly the ground, at 1 exactly the layer.
     composite at(float t, float below, float layer) const {
-        const float rise = layer - below;
+        const float height_difference = layer - below;
         if (t <= 0) return {below, false};
         if (t >= 1) return {layer, true};
         // Relief beyond the expected range fades.
         if (t < 0.5f) {
-            const float over = rise - relief_ * (1 - 2 * t);
+            const float over = height_difference - relief_ * (1 - 2 * t);
             return {over > 0 ? below + over * saturate(4 * t) : below, over > 0};
         }
-        const float over = -rise - relief_ * (2 * t - 1);
+        const float over = -height_difference - relief_ * (2 * t - 1);
         return {over > 0 ? layer + over * saturate(4 - 4 * t) : layer, !(over > 0)};
     }
 
@@ -23490,7 +23528,7 @@ class detailed_sampler;
 /// A heightfield with cubic interpolation between its vertices, plus roughness.
 ///
 /// To continue the survey's spectrum, set the roughness's longest cell to the survey's spacing: a sediment's relief of
-/// wavelengths below L metres has an rms of facts_of(sediment).rms() L^0.625.
+/// wavelengths below L metres has an rms of parameters_of(sediment).rms() L^0.625.
 struct detailed {
     heightfield field{};
     roughness surface{.rms = 0.01f, .longest = 1, .shortest = 0.06f};
@@ -23609,8 +23647,8 @@ inline double moat_reach(const moat& m) {
     // The tail is as wide as the outline, whose corners may all lie to one side of it.
     double square = 0;
     for (const glm::dvec2& p : m.outline) {
-        const glm::dvec2 off = p - m.outline.front();
-        square = (std::max)(square, off.x * off.x + off.y * off.y);
+        const glm::dvec2 offset = p - m.outline.front();
+        square = (std::max)(square, offset.x * offset.x + offset.y * offset.y);
     }
     return numeric::square_root(square) + static_cast<double>(m.width) + static_cast<double>(m.tail);
 }
@@ -23621,20 +23659,20 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
     // Along the current and across it, of the outline and of the position, from the outline's mean corner.
     glm::dvec2 centre(0, 0);
     for (const glm::dvec2& c : m.outline) centre += c / static_cast<double>(m.outline.size());
-    const auto turned = [&](const glm::dvec2& q) {
-        const glm::dvec2 off = q - centre;
-        return glm::dvec2(off.x * flow.cosine + off.y * flow.sine, off.y * flow.cosine - off.x * flow.sine);
+    const auto to_current_frame = [&](const glm::dvec2& q) {
+        const glm::dvec2 offset = q - centre;
+        return glm::dvec2(offset.x * flow.cosine + offset.y * flow.sine, offset.y * flow.cosine - offset.x * flow.sine);
     };
     double lee_end = 0, left = 0, right = 0;
     for (const glm::dvec2& c : m.outline) {
-        const glm::dvec2 q = turned(c);
+        const glm::dvec2 q = to_current_frame(c);
         lee_end = (std::max)(lee_end, q.x);
         left = (std::min)(left, q.y);
         right = (std::max)(right, q.y);
     }
 
     const double width = static_cast<double>(m.width), outside = -signed_distance(m.outline, p);
-    const glm::dvec2 at = turned(p);
+    const glm::dvec2 at = to_current_frame(p);
     const double away = numeric::square_root(at.x * at.x + at.y * at.y);
     const double facing = away > 0 ? 0.75 - 0.25 * at.x / away : 0.75;
     double change =
@@ -23802,10 +23840,10 @@ inline float height_after(const flatten& e, const glm::dvec2& p, float height) {
     return lerp(height, e.level, plateau(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius));
 }
 inline float height_after(const ramp& e, const glm::dvec2& p, float height) {
-    const glm::dvec2 way = e.to - e.from, off = p - e.from;
+    const glm::dvec2 way = e.to - e.from, offset = p - e.from;
     const double square = way.x * way.x + way.y * way.y, span = numeric::square_root(square);
-    const double t = (way.x * off.x + way.y * off.y) / square;
-    const double side = (way.x * off.y - way.y * off.x) / span;
+    const double t = (way.x * offset.x + way.y * offset.y) / square;
+    const double side = (way.x * offset.y - way.y * offset.x) / span;
     // Beyond its ends the ramp is level and fades within a quarter of its width.
     const double past = (t < 0 ? -t : t > 1 ? t - 1 : 0.0) * span;
     const float weight = plateau(static_cast<float>(2 * numeric::abs(side)) / e.width) *
@@ -23814,14 +23852,14 @@ inline float height_after(const ramp& e, const glm::dvec2& p, float height) {
 }
 inline float height_after(const stamp& e, const glm::dvec2& p, float height) {
     if (e.every <= 0) return height + e.height * biweight(static_cast<float>(distance_to_path(p, e.path)) / e.radius);
-    // The mark next to the nearest place on each leg of the path, counted along it.
+    // On each segment of the path, the mark nearest to the point, by arc length.
     const double every = static_cast<double>(e.every);
     double before = 0, nearest = square_distance(p, e.path[0], e.path[0]);
     for (std::size_t i = 1; i < e.path.size(); ++i) {
-        const glm::dvec2 &a = e.path[i - 1], way = e.path[i] - a, off = p - a;
+        const glm::dvec2 &a = e.path[i - 1], way = e.path[i] - a, offset = p - a;
         const double square = way.x * way.x + way.y * way.y, span = numeric::square_root(square);
         if (span == 0) continue;
-        const double along = before + (way.x * off.x + way.y * off.y) / span;
+        const double along = before + (way.x * offset.x + way.y * offset.y) / span;
         const double last = static_cast<double>(numeric::floor_to_int((before + span) / every)) * every;
         const double first = -static_cast<double>(numeric::floor_to_int(-before / every)) * every;
         const double mark = static_cast<double>(numeric::floor_to_int(along / every + 0.5)) * every;
@@ -24073,7 +24111,7 @@ struct map_extent {
 };
 
 /// Vertex shader of height maps: from a mesh's coordinates to clip space, with w = 1.
-struct map_placement {
+struct map_vertex_shader {
     glm::mat3 axes;
     glm::vec3 start;
 
@@ -24124,7 +24162,7 @@ class height_map {
         const double room = 1e-3 * height + 1e-6;
         floor_ = extent.floor - room;
         relief_ = height + 2 * room;
-        heights_ = image<float>(texels(size.x), texels(size.y), empty_depth(keep_depth::larger));
+        heights_ = image<float>(texels(size.x), texels(size.y), empty_depth(depth_compare::greater));
     }
 
     /// Draws a mesh into the map as a caster; several meshes may share a map.
@@ -24133,8 +24171,8 @@ class height_map {
     template <executor_argument E = serial_executor>
     draw_stats cast(const mesh_view& m, const affine& to_world, E&& ex = {}) {
         if (heights_.empty()) return {};
-        return draw(m, placing(to_world), depth_target{heights_},
-                    draw_options<depth_precision::quick>{.keep = keep_depth::larger}, ex);
+        return draw(m, vertex_shader_for(to_world), depth_target{heights_},
+                    draw_options<depth_precision::quick>{.compare = depth_compare::greater}, ex);
     }
 
     const light_frame& frame() const { return frame_; }
@@ -24156,7 +24194,7 @@ class height_map {
   private:
     /// Vertex shader that maps a mesh onto the map. Mesh to clip space is one affine map, composed in double and
     /// narrowed last, when its numbers are small. Row 0 is where v is smallest, so triangles appear mirrored.
-    map_placement placing(const affine& to_world) const {
+    map_vertex_shader vertex_shader_for(const affine& to_world) const {
         const glm::dvec2 scale{2 / (texel_ * columns()), 2 / (texel_ * rows())};
         const auto to_clip = [&](const glm::dvec3& uvz) {
             return glm::dvec3((uvz.x - origin_.x) * scale.x - 1, 1 - (uvz.y - origin_.y) * scale.y,
@@ -24335,7 +24373,7 @@ class map_occlusion {
         lowest_ = receivers.lowest;
         const glm::dvec2 size = receivers.highest - receivers.lowest;
         for (int i = 0; i < 2; ++i) tiles_per_metre_[i] = size[i] > 0 ? side / size[i] : 0;
-        insonify::detail::dynamic_array<detail::tile_occupants::occupancy> occupants;
+        insonify::detail::dynamic_array<detail::tile_casters::covered_tile> covered;
         for (std::size_t k = 0; k < casters_.size(); ++k) {
             const caster& c = casters_[k];
             const map_extent own = extent_of(c.box, c.placement, frame_).clipped_to(receivers);
@@ -24346,10 +24384,9 @@ class map_occlusion {
             const glm::ivec2 first = tile_of(own.lowest - reach), last = tile_of(own.highest + reach);
             for (int row = first.y; row <= last.y; ++row)
                 for (int column = first.x; column <= last.x; ++column)
-                    occupants.push_back(
-                        {static_cast<std::uint32_t>(row * side + column), static_cast<std::uint32_t>(k)});
+                    covered.push_back({static_cast<std::uint32_t>(row * side + column), static_cast<std::uint32_t>(k)});
         }
-        casters_of_tiles_ = {side * side, occupants};
+        casters_of_tiles_ = {side * side, covered};
     }
 
     /// See occlusion.
@@ -24358,8 +24395,8 @@ class map_occlusion {
             into.lit[i] = 1;
             into.caster[i] = invalid_id;
             const glm::dvec3 facet = facet_of(casters_, at, i);
-            const bool is_turned = numeric::dot(facet, frame_.to_light()) < 0;
-            const receiver_plane plane(frame_, at[i], is_turned ? -facet : facet);
+            const bool is_back_facing = numeric::dot(facet, frame_.to_light()) < 0;
+            const receiver_plane plane(frame_, at[i], is_back_facing ? -facet : facet);
             const bool is_grazed = !plane.faces_light && facet != glm::dvec3(0);
             const glm::ivec2 tile = tile_of(glm::dvec2(plane.uvz));
             for (const std::uint32_t k : casters_of_tiles_.of(static_cast<std::size_t>(tile.y * side + tile.x))) {
@@ -24369,7 +24406,7 @@ class map_occlusion {
                 if (fraction < 0.5f && into.caster[i] == invalid_id) into.caster[i] = k;
             }
             if (!is_grazed) continue;
-            // It blocks its own light.
+            // The facet is edge-on to the light: its own mesh shadows it.
             into.lit[i] = 0;
             into.caster[i] = (std::min)(into.caster[i], at.mesh[i]);
         }
@@ -24390,8 +24427,8 @@ class map_occlusion {
     }
 
     static light_frame parallel(const any_light& light) {
-        if (const auto* from_nearby = std::get_if<point_light>(&light)) {
-            const glm::dvec3& p = from_nearby->position;
+        if (const auto* point = std::get_if<point_light>(&light)) {
+            const glm::dvec3& p = point->position;
             insonify::detail::refuse("the distance of the light (overhead.light_distance)",
                                      numeric::square_root(numeric::dot(p, p)),
                                      "infinite for shadow maps; shadow::exact and shadow::penumbra take a point_light");
@@ -24411,7 +24448,7 @@ class map_occlusion {
     int radius_;
     insonify::detail::dynamic_array<height_map> maps_;
     glm::dvec2 lowest_{0}, tiles_per_metre_{0};
-    detail::tile_occupants casters_of_tiles_;
+    detail::tile_casters casters_of_tiles_;
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -24505,7 +24542,7 @@ class penumbra_occlusion {
         any_light light;
 
         glm::dvec3 toward(const glm::dvec3& p) const {
-            if (const auto* from_nearby = std::get_if<point_light>(&light)) return from_nearby->position - p;
+            if (const auto* point = std::get_if<point_light>(&light)) return point->position - p;
             return light_frame(std::get<directional_light>(light)).to_light();
         }
     };
@@ -24514,8 +24551,8 @@ class penumbra_occlusion {
     /// @param disc_offset  from the disc's centre, across and up, divided by the light's distance
     static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& disc_offset) {
         if (disc_offset == glm::dvec2(0)) return light;
-        if (const auto* from_nearby = std::get_if<point_light>(&light))
-            return point_light{point_of_disc(from_nearby->position, disc_offset)};
+        if (const auto* point = std::get_if<point_light>(&light))
+            return point_light{point_of_disc(point->position, disc_offset)};
         const light_frame frame(std::get<directional_light>(light));
         const glm::dvec3 d = toward_disc(frame.to_light(), frame.travel(), disc_offset);
         const double elevation = numeric::atan2(d.z, numeric::square_root(d.x * d.x + d.y * d.y));
@@ -24527,11 +24564,11 @@ class penumbra_occlusion {
     void add(std::size_t number, const points& at, const results& one, const results& into) const {
         const sample &middle = lights_.front(), &here = lights_[number];
         glm::dvec3 to_middle = middle.toward({}), to_here = here.toward({});
-        const bool is_near = std::holds_alternative<point_light>(middle.light);
+        const bool is_point_light = std::holds_alternative<point_light>(middle.light);
         for (std::size_t i = 0; i < at.size(); ++i) {
             if (!(one.lit[i] > 0)) continue;
             const glm::dvec3 facet = facet_of(casters_, at, i);
-            if (is_near) {
+            if (is_point_light) {
                 to_middle = middle.toward(at[i]);
                 to_here = here.toward(at[i]);
             }
@@ -24774,11 +24811,11 @@ struct vertical_beam {
     float side_lobes = 1e-3f;                                       ///< two-way power relative to that on the axis
     /// @param across, down  of the unit vector along the ray
     INSONIFY_MEMBER double over_direction(double across, double down) const {
-        double off = numeric::atan2(down, across) - static_cast<double>(tilt);
-        if (off > numeric::pi) off -= 2 * numeric::pi;
-        if (off < -numeric::pi) off += 2 * numeric::pi;
-        off /= static_cast<double>(beamwidth);
-        return static_cast<double>(side_lobes) + numeric::exp(-5.545177444479562 * off * off);  // 8 ln 2
+        double off_axis = numeric::atan2(down, across) - static_cast<double>(tilt);
+        if (off_axis > numeric::pi) off_axis -= 2 * numeric::pi;
+        if (off_axis < -numeric::pi) off_axis += 2 * numeric::pi;
+        off_axis /= static_cast<double>(beamwidth);
+        return static_cast<double>(side_lobes) + numeric::exp(-5.545177444479562 * off_axis * off_axis);  // 8 ln 2
     }
 };
 
@@ -24791,8 +24828,8 @@ struct horizontal_beam {
     /// Metres to either side beyond which the pattern counts as 0.
     INSONIFY_MEMBER double reach(double range) const { return range * static_cast<double>(beamwidth); }
     INSONIFY_MEMBER double pattern(double along, double range) const {
-        const double off = along / (range * static_cast<double>(beamwidth));
-        return numeric::exp(-5.545177444479562 * off * off);
+        const double off_axis = along / (range * static_cast<double>(beamwidth));
+        return numeric::exp(-5.545177444479562 * off_axis * off_axis);
     }
     /// Correlation length (1 / e) of speckle intensities along the track, metres. Two pings correlate while the sonar
     /// has moved by only a fraction of its array (phases persist) and of the footprint (scatterers persist). Gaussian
@@ -24829,7 +24866,7 @@ inline constexpr float min_grazing_sine = 1e-3f;
 struct flat_echo {
     double range, altitude;  ///< metres; above the datum
     double bin, spacing;     ///< metres
-    bool counts_time;        ///< bins count slant range
+    bool is_slant_range;     ///< bins count slant range
 };
 
 /// Gain that compensates spreading and absorption. Seabed whose strength does not depend on the angle comes out level,
@@ -24988,7 +25025,7 @@ class sonar_equation {
     INSONIFY_TAGGED double gain(const flat_echo& e, const Law& law) const {
         const auto level_at = [&](double sine) {
             const double cosine = numeric::square_root(1 - sine * sine);
-            const double length = e.counts_time ? e.bin / cosine : e.bin;
+            const double length = e.is_slant_range ? e.bin / cosine : e.bin;
             // Rays take the law from the same angle up.
             const double clamped = (std::max)(sine, static_cast<double>(detail::min_grazing_sine));
             return static_cast<double>(law(static_cast<float>(clamped))) * (sine / clamped) * length * e.spacing *
@@ -25121,7 +25158,7 @@ struct range_bins {
     float first_range, range;
     int bins;
     side facing;
-    bool counts_time;  ///< slant range
+    bool is_slant_range;  ///< bins count slant range, or else ground range
 
     template <across_track Axis>
     INSONIFY_MEMBER explicit range_bins(const side_scan_rig<Axis>& rig)
@@ -25131,7 +25168,7 @@ struct range_bins {
           range(rig.range),
           bins(rig.bins),
           facing(rig.side),
-          counts_time(Axis == across_track::slant_range) {}
+          is_slant_range(Axis == across_track::slant_range) {}
 
     INSONIFY_MEMBER double bin() const {
         return (static_cast<double>(range) - static_cast<double>(first_range)) / bins;
@@ -25154,7 +25191,7 @@ namespace detail::inline INSONIFY_FLAGS {
 /// Reach of the horizontal beam at the largest range, in pings.
 inline int beam_reach(const equation_interface& equation, const range_bins& window) {
     const double range = static_cast<double>(window.range), altitude = static_cast<double>(window.altitude);
-    const double slant = window.counts_time ? range : numeric::square_root(range * range + altitude * altitude);
+    const double slant = window.is_slant_range ? range : numeric::square_root(range * range + altitude * altitude);
     const double pings = equation.beam_reach(slant) / static_cast<double>(window.ping_spacing);
     require(pings >= 0 && pings < 4096, "pings in the horizontal beam", pings, "0 or more, below 4096");
     return static_cast<int>(pings);
@@ -25280,7 +25317,7 @@ frame<Labels> record(const scene& s, std::span<const ping> track, const side_sca
 /// Records pings into the caller's memory, without labels: row i of `into` becomes ping i.
 /// @param into  rig.bins columns, a row per ping; may be a part of a larger image
 /// The other parameters and errors are those of `record`; also throws invalid_input for a view of another size, which
-/// is then untouched.
+/// is then unchanged.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
 render_stats record_into(image_view<float> into, const scene& s, std::span<const ping> track,
@@ -25344,17 +25381,17 @@ class bottom_tiles {
   public:
     static constexpr int cells = 64;  ///< along a tile's side
 
-    /// @param spacing  metres between vertices, rounded by `even`
+    /// @param spacing  metres between vertices, rounded by `rounded_cell`
     bottom_tiles(const seabed::any& source, double spacing)
         : is_empty_(source.empty()),
           prepared_(source.prepare()),
           labels_(source.legend()),
           range_(prepared_.range()),
-          spacing_(even(spacing)),
+          spacing_(rounded_cell(spacing)),
           scale_(1 / spacing_) {}
 
     /// Rounds a length so that its multiples are exact: a vertex has the same coordinates in every row.
-    static double even(double length) {
+    static double rounded_cell(double length) {
         require(length > 1e-9 && length < 1e9, "cell", length, "above 10^-9 and below 10^9 metres");
         return numeric::rounded_to_eight_bits(length);
     }
@@ -25540,7 +25577,8 @@ class bottom_tiles {
         const auto scale = static_cast<float>(0.5 * scale_);
         const auto slope = [&](float before, float at, float after) {
             const float central = scale * (after - before);  // finite, unless beside a gap
-            return numeric::is_finite(central) ? central : scale * seabed::detail::rise(before, at, after);
+            return numeric::is_finite(central) ? central
+                                               : scale * seabed::detail::central_difference(before, at, after);
         };
         for (std::size_t tile = 0; tile < run.count; ++tile) {
             bottom_vertex* out = &vertices_[(run.slot + tile) * tile_size];
@@ -25804,10 +25842,10 @@ class echo_bins {
     /// Adds the echo of a target to the label of a bin.
     void add_instance(std::size_t bin, std::uint16_t instance, float power) { echoing_.add(bin, instance, power); }
     /// Adds a piece of seabed to the labels of a bin.
-    /// @param caster  of its shadow, or is_lit
+    /// @param caster  of its shadow, or no_shadow
     void add_seabed(std::size_t number, std::uint8_t type, std::uint16_t caster, float length) {
         echo_bin& bin = bins_[number];
-        if (caster == labels::is_lit)
+        if (caster == labels::no_shadow)
             bin.lit += length;
         else if (caster == labels::by_seabed)
             bin.dark_by_seabed += length;
@@ -25990,22 +26028,22 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// Converts ranges to positions in bins.
 struct range_axis {
-    double first, bin;  ///< metres
-    bool counts_time;   ///< slant range, or else ground range
+    double first, bin;    ///< metres
+    bool is_slant_range;  ///< bins count slant range, or else ground range
 
     /// Position of an echo at a slant range along a ray.
     float position(const ping_fan::ray& ray, double range) const {
-        const double r = counts_time ? range : range * ray.sine;
+        const double r = is_slant_range ? range : range * ray.sine;
         return static_cast<float>((r - first) / bin);
     }
     /// Position of the echo of a point, from its distances across and below the sonar.
     double position(double x, double down) const {
-        const double r = counts_time ? numeric::square_root(x * x + down * down) : x;
+        const double r = is_slant_range ? numeric::square_root(x * x + down * down) : x;
         return (r - first) / bin;
     }
     /// Half the number of bins between the edges of a ray on a surface along (dx, ddown).
     float half_length(const ping_fan::ray& ray, double range, double dx, double ddown) const {
-        const double outwards = counts_time ? dx * ray.sine + ddown * ray.cosine : dx;
+        const double outwards = is_slant_range ? dx * ray.sine + ddown * ray.cosine : dx;
         const double turning = dx * ray.cosine - ddown * ray.sine;
         const double half = 0.5 * range * ray.width * outwards / (turning * bin);
         return static_cast<float>(numeric::abs(half));
@@ -26155,13 +26193,14 @@ class sliced_target {
         centre_ = transform_point(to_world_, box.centre());
         const glm::dvec3 half = 0.5 * box.size();
         radius_ = numeric::square_root(numeric::dot(half, half)) * static_cast<double>(t.placement.scale) * (1 + 1e-6);
-        const glm::dmat3& turn = to_world_.linear;
-        rise_ = numeric::abs(turn[0].z) * half.x + numeric::abs(turn[1].z) * half.y + numeric::abs(turn[2].z) * half.z;
+        const glm::dmat3& linear = to_world_.linear;
+        half_height_ = numeric::abs(linear[0].z) * half.x + numeric::abs(linear[1].z) * half.y +
+                       numeric::abs(linear[2].z) * half.z;
     }
 
     /// Bounds of its heights above the datum: those of its box.
-    double top() const { return centre_.z + rise_; }
-    double foot() const { return radius_ > 0 ? centre_.z - rise_ : 1e30; }
+    double highest() const { return centre_.z + half_height_; }
+    double lowest() const { return radius_ > 0 ? centre_.z - half_height_ : 1e30; }
 
     /// Whether a ping's plane may meet the target on the side that it faces, within a slant range in metres.
     bool is_met_by(const ping_frame& p, double range) const {
@@ -26179,25 +26218,25 @@ class sliced_target {
     template <class Visit>
     void cut(const ping_frame& p, const Visit& visit) const {
         const glm::dvec3 offset = p(to_world_.offset);
-        glm::dmat3 turn;
-        for (int i = 0; i < 3; ++i) turn[i] = p.turned(to_world_.linear[i]);
-        const glm::mat3 normals(turn);  // scales are uniform
-        const double sign = numeric::determinant(turn) < 0 ? -1 : 1;
-        const glm::dvec3 ahead(turn[0].y, turn[1].y, turn[2].y);
+        glm::dmat3 linear;
+        for (int i = 0; i < 3; ++i) linear[i] = p.direction(to_world_.linear[i]);
+        const glm::mat3 normals(linear);  // scales are uniform
+        const double sign = numeric::determinant(linear) < 0 ? -1 : 1;
+        const glm::dvec3 ahead(linear[0].y, linear[1].y, linear[2].y);
         tree_->cut(ahead, offset.y, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i)
-                cut_triangle(shape_->triangles[i], turn, offset, normals, sign, visit);
+                cut_triangle(shape_->triangles[i], linear, offset, normals, sign, visit);
         });
     }
 
   private:
     template <class Visit>
-    void cut_triangle(const glm::uvec3& t, const glm::dmat3& turn, const glm::dvec3& offset, const glm::mat3& normals,
+    void cut_triangle(const glm::uvec3& t, const glm::dmat3& linear, const glm::dvec3& offset, const glm::mat3& normals,
                       double sign, const Visit& visit) const {
         glm::dvec3 v[3];
         int behind = 0;
         for (int i = 0; i < 3; ++i) {
-            v[i] = numeric::product(turn, glm::dvec3(shape_->positions[t[i]])) + offset;
+            v[i] = numeric::product(linear, glm::dvec3(shape_->positions[t[i]])) + offset;
             behind += v[i].y < 0 ? 1 : 0;
         }
         if (behind == 0 || behind == 3 || !numeric::is_finite(v[0].x + v[1].x + v[2].x + v[0].z + v[1].z + v[2].z))
@@ -26224,8 +26263,8 @@ class sliced_target {
     std::shared_ptr<const plane_tree> tree_;
     affine to_world_;
     glm::dvec3 centre_{0, 0, -1e30};
-    double radius_ = 0;  ///< of its bounding sphere, metres
-    double rise_ = 0;    ///< from the centre to the top
+    double radius_ = 0;       ///< of its bounding sphere, metres
+    double half_height_ = 0;  ///< from the centre to the highest
 };
 
 /// The targets of a scene; those with the same mesh share its tree.
@@ -26347,9 +26386,9 @@ class target_hits {
     }
 
     /// The target that most of ray k hits, if more than half of the ray hits targets and its nearest hit is in front of
-    /// `range`; else is_lit.
+    /// `range`; else no_shadow.
     std::uint16_t occluder(std::size_t k, double range) const {
-        return k < occluders_.size() && occluders_[k].range < range ? occluders_[k].instance : labels::is_lit;
+        return k < occluders_.size() && occluders_[k].range < range ? occluders_[k].instance : labels::no_shadow;
     }
 
     /// Calls `visit(ray, hit)` in the order of the rays.
@@ -26520,11 +26559,11 @@ class ping_tracer {
           window_(window),
           cell_(cell),
           range_(static_cast<double>(window.range)),
-          axis_{static_cast<double>(window.first_range), window.bin(), window.counts_time},
+          axis_{static_cast<double>(window.first_range), window.bin(), window.is_slant_range},
           step_((std::min)(axis_.bin, cell)),
           profile_(bottom, (std::max)(step_, 0.5 * cell), range_),
           bins_(static_cast<std::size_t>(window.bins)) {
-        for (const sliced_target& t : targets) top_ = (std::max)(top_, t.top());
+        for (const sliced_target& t : targets) highest_ = (std::max)(highest_, t.highest());
     }
 
     /// @returns one per bin, valid until the next call
@@ -26532,19 +26571,19 @@ class ping_tracer {
         bins_.clear();
         profile_.sample(p, start(window_, cell_, relief_, p, targets_));
         const double altitude = p.position().z;
-        double foot = 1e30;
+        double lowest_target = 1e30;
         for (const sliced_target& t : targets_)
-            if (meets(p, t)) foot = (std::min)(foot, t.foot());
+            if (meets(p, t)) lowest_target = (std::min)(lowest_target, t.lowest());
         double lowest = profile_.lowest(), highest = profile_.highest();
         if (skips_foreground(relief_, axis_.first, p)) lowest = relief_.lowest, highest = relief_.highest;
         if (!(lowest <= highest))  // no seabed here: rays for the targets alone
-            lowest = highest = (std::min)(foot, altitude - range_ / 16);
+            lowest = highest = (std::min)(lowest, altitude - range_ / 16);
         // Through a gap, targets lower than the seabed are received in the window from rays closer to nadir.
-        if (axis_.first > 0 && foot < lowest && profile_.has_gaps()) lowest = foot;
+        if (axis_.first > 0 && lowest_target < lowest && profile_.has_gaps()) lowest = lowest_target;
         // Depths along a pitched fan are longer. Vertical depths are lower bounds, as above_highest and above_all need.
         const double stretch = 1 / p.cosine_pitch();
-        const fan_shape shape =
-            fan_shape::around((altitude - lowest) * stretch, altitude - highest, altitude - (std::max)(top_, highest));
+        const fan_shape shape = fan_shape::around((altitude - lowest) * stretch, altitude - highest,
+                                                  altitude - (std::max)(highest_, highest));
         const std::array<double, 3> attitude{p.sine_roll(), p.cosine_roll(), p.cosine_pitch()};
         if (!(shape == fan_.shape()) || attitude != attitude_) build_fan(shape, attitude);
         if (!(altitude > lowest) || profile_[0].down <= 0) return bins_.all();  // the sonar is below the seabed
@@ -26564,11 +26603,11 @@ class ping_tracer {
         const double altitude = p.position().z, first = static_cast<double>(window.first_range);
         if (!skips_foreground(relief, first, p)) return 0;
         const double deepest = altitude - relief.lowest, begin = first - 4 * window.bin();
-        const double square = window.counts_time ? begin * begin - deepest * deepest : begin * begin;
+        const double square = window.is_slant_range ? begin * begin - deepest * deepest : begin * begin;
         const double nearest = begin > 0 && square > 0 ? numeric::square_root(square) - 4 * cell : 0;
         // Targets that are nearer than the window's seabed, or all of whose echo comes through a gap.
         for (const sliced_target& t : targets)
-            if (t.is_met_by(p, 1e9) && (t.nearest(p) < nearest || t.top() < relief.lowest)) return 0;
+            if (t.is_met_by(p, 1e9) && (t.nearest(p) < nearest || t.highest() < relief.lowest)) return 0;
         // The highest possible crest that occludes the lowest possible ground there.
         return (std::max)(0.0, nearest * (altitude - relief.highest) / deepest - 4 * cell);
     }
@@ -26586,7 +26625,7 @@ class ping_tracer {
     /// Builds the fan, and the power per metre of range of each ray.
     void build_fan(const fan_shape& shape, const std::array<double, 3>& attitude) {
         const auto slant = [&](double r) {
-            return axis_.counts_time ? r : numeric::square_root(r * r + shape.above_lowest * shape.above_lowest);
+            return axis_.is_slant_range ? r : numeric::square_root(r * r + shape.above_lowest * shape.above_lowest);
         };
         farthest_ = slant(range_);
         fan_ = ping_fan(shape, step_, slant(axis_.first), farthest_);
@@ -26599,14 +26638,14 @@ class ping_tracer {
             const double across = fan_[k].sine * cosine_roll + fan_[k].cosine * sine_roll,
                          down = fan_[k].cosine * cosine_roll - fan_[k].sine * sine_roll;
             const double factor = equation_.over_direction(across, down);
-            insonify::detail::require_not_negative("over_direction() of the sonar equation", factor);
+            insonify::detail::require_range("over_direction() of the sonar equation", factor, 0, 1e20, "0 to 10^20");
             ray_power_[k] = thickness * static_cast<float>(fan_[k].width * factor);
         }
     }
 
     /// Whether a target may echo within the range.
     bool meets(const ping_frame& p, const sliced_target& t) const {
-        return t.is_met_by(p, axis_.counts_time ? range_ : 1e30) && t.nearest(p) < range_;
+        return t.is_met_by(p, axis_.is_slant_range ? range_ : 1e30) && t.nearest(p) < range_;
     }
 
     void gather_targets(const ping_frame& p) {
@@ -26636,7 +26675,7 @@ class ping_tracer {
     /// (the horizon) is in shadow.
     void trace_bottom(const ping_frame& ping) {
         double horizon_x = 0, horizon_down = 1;
-        // Rays that meet the bottom in front of the profile go no further.
+        // Rays that meet the bottom in front of the profile's first vertex end there.
         std::size_t k = profile_.starts_at_nadir() ? 0 : fan_.first_over(profile_.x(0), profile_[0].down);
         if (has_targets_)
             for (std::size_t j = 0; j < k; ++j) hits_.cut_off(j, 0);
@@ -26679,7 +26718,7 @@ class ping_tracer {
             }
             if (Labelled && !is_gap)
                 label(part, from, 1,
-                      has_targets_ ? occluder(k > first ? k - 1 : k, part.at(last_met)) : labels::is_lit);
+                      has_targets_ ? occluder(k > first ? k - 1 : k, part.at(last_met)) : labels::no_shadow);
             horizon_x = qx, horizon_down = q.down;
         }
     }
@@ -26739,18 +26778,18 @@ class ping_tracer {
         });
     }
 
-    /// The target between the sonar and a point of ray k, or is_lit.
+    /// The target between the sonar and a point of ray k, or no_shadow.
     std::uint16_t occluder(std::size_t k, const glm::dvec2& p) const {
         return hits_.occluder(k, numeric::square_root(p.x * p.x + p.y * p.y));
     }
     /// The caster of a shadow below the horizon: a target, if one occludes the point, or the seabed.
     std::uint16_t caster_below_horizon(const glm::dvec2& p) const {
-        const std::uint16_t target = has_targets_ ? occluder(fan_.first_over(p.x, p.y), p) : labels::is_lit;
-        return target == labels::is_lit ? labels::by_seabed : target;
+        const std::uint16_t target = has_targets_ ? occluder(fan_.first_over(p.x, p.y), p) : labels::no_shadow;
+        return target == labels::no_shadow ? labels::by_seabed : target;
     }
 
     /// Adds a piece of bottom to the labels: between two fractions of the way along a facet, with the caster of its
-    /// shadow or is_lit. Each half of a facet has the type of its vertex.
+    /// shadow or no_shadow. Each half of a facet has the type of its vertex.
     void label(const facet& part, double from, double to, std::uint16_t caster) {
         if (part.p.type == part.q.type) return label(part, from, to, caster, part.p.type);
         if (from < 0.5) label(part, from, (std::min)(to, 0.5), caster, part.p.type);
@@ -26785,7 +26824,7 @@ class ping_tracer {
     range_axis axis_;
     double step_;
     bottom_profile profile_;
-    double top_ = -1e30;                       ///< of all targets
+    double highest_ = -1e30;                   ///< of all targets
     std::array<double, 3> attitude_{0, 1, 1};  ///< sine and cosine of the roll, cosine of the pitch
     ping_fan fan_;
     dynamic_array<float> ray_power_;
@@ -26860,13 +26899,13 @@ class recorder {
         // Both ends are rounded floats, so their difference may fall short of the intended length.
         const double recorded = static_cast<double>(window.range) - static_cast<double>(window.first_range);
         require_not_negative("range_length() of the sonar equation", equation_.pulse_length());
-        require_not_negative("noise() of the sonar equation", equation_.noise());
+        require_range("noise() of the sonar equation", equation_.noise(), 0, 1e20, "0 to 10^20");
         require(equation_.pulse_length() <= recorded + 0x1p-23 * static_cast<double>(window.range), "pulse.length",
                 equation_.pulse_length(), "at most range - first_range, in metres");
         out_.rows.side = window.facing;
         require(options.cell == 0 || options.cell >= 0x1p-20 * static_cast<double>(window.range), "cell", options.cell,
                 "0, or at least 2^-20 of the range");
-        out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(window));
+        out_.stats.cell = bottom_tiles::rounded_cell(options.cell > 0 ? options.cell : default_cell(window));
         targets_ = sliced_targets(s);
         const auto height = static_cast<int>(track.size());
         out_.image = filled(window.bins, height, 0.0f, ex);
@@ -26905,7 +26944,7 @@ class recorder {
     /// Slant range of a bin from an altitude.
     double slant_of(std::size_t bin, double altitude) const {
         const double r = range_of(bin);
-        return window_.counts_time ? r : numeric::square_root(r * r + altitude * altitude);
+        return window_.is_slant_range ? r : numeric::square_root(r * r + altitude * altitude);
     }
 
     void trace(executor_ref ex) {
@@ -26939,7 +26978,7 @@ class recorder {
     /// same at any altitude.
     std::span<const float> losses_at(const ping& p, bin_factors& losses) const {
         if (!equation_.has_ranges()) return {};
-        const double altitude = window_.counts_time ? 0 : p.position.z;
+        const double altitude = window_.is_slant_range ? 0 : p.position.z;
         return losses.at(altitude, window_.bins, "over_range() and footprint() of the sonar equation",
                          [&](std::size_t b) { return equation_.over_range(slant_of(b, altitude), spacing()); });
     }
@@ -26960,7 +26999,7 @@ class recorder {
                 const bool is_target = bin.target > bin.bottom;
                 const bool is_dark = bin.dark_by_target + bin.dark_by_seabed > bin.lit;
                 instance[b] = is_target ? bin.instance : labels::no_instance;
-                shadow[b] = is_target || !is_dark ? labels::is_lit : bin.caster;
+                shadow[b] = is_target || !is_dark ? labels::no_shadow : bin.caster;
                 seabed[b] = is_target ? labels::no_seabed : bin.seabed;
             }
         }
@@ -26999,6 +27038,8 @@ class recorder {
                 return factor;
             };
             for (int j = -reach; j <= reach; ++j) sum += weight(numeric::abs(j));
+            require(sum > 0 && numeric::is_finite(sum), "sum of pattern() of the sonar equation within reach()", sum,
+                    "above 0 and finite");
             for (int j = 0; j <= reach; ++j) weights(b, j) = static_cast<float>(weight(j) / sum);
         }
         image<float> blurred(bins, rows);
@@ -27024,7 +27065,7 @@ class recorder {
                 const double altitude = track_[i].position.z;
                 const auto gain = gains.at(altitude, window_.bins, "gain() of the sonar equation", [&](std::size_t b) {
                     return equation_.gain(
-                        {slant_of(b, altitude), altitude, window_.bin(), spacing(), window_.counts_time});
+                        {slant_of(b, altitude), altitude, window_.bin(), spacing(), window_.is_slant_range});
                 });
                 const auto row = out_.image.row(static_cast<int>(i));
                 for (std::size_t b = 0; b < row.size(); ++b)
@@ -27077,7 +27118,7 @@ image<T> mirrored(const image<T>& source) {
 
 /// The picture rotated by 180 degrees: of a rig that faces backwards, with forward up again.
 template <class T>
-image<T> turned(const image<T>& source) {
+image<T> rotated_180(const image<T>& source) {
     image<T> out(source.width(), source.height());
     std::reverse_copy(source.pixels().begin(), source.pixels().end(), out.pixels().begin());
     return out;
@@ -27085,7 +27126,7 @@ image<T> turned(const image<T>& source) {
 
 /// The recording with its last ping on top: up is forward, as in overhead pictures.
 template <class Labels>
-frame<Labels> upside_down(frame<Labels> r) {
+frame<Labels> flipped_vertically(frame<Labels> r) {
     const auto flip = [](auto& picture) {
         for (int y = 0; 2 * y < picture.height() - 1; ++y)
             std::swap_ranges(picture.row(y).begin(), picture.row(y).end(),
@@ -27100,11 +27141,11 @@ frame<Labels> upside_down(frame<Labels> r) {
 
 /// Two pictures side by side, `gap` columns of `fill` between them.
 ///
-/// `beside(turned(port.image), starboard.image, gap)` of two overhead frames, the first with its yaw half a turn
-/// further, is the paper's stitched picture; its dead zone is the gap.
+/// For two overhead frames, the first with its yaw half a turn further, `side_by_side(rotated_180(port.image),
+/// starboard.image, gap)` is a picture of both sides; the gap stands for the blind zone below the sonar.
 /// @throws invalid_input for pictures of different heights, a negative gap or one that leaves no room for the columns
 template <class T>
-image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill = T{}) {
+image<T> side_by_side(const image<T>& left, const image<T>& right, int gap = 0, T fill = T{}) {
     detail::require_equal("right.height()", right.height(), left.height(), "the height of the left picture");
     const std::int64_t widest = (std::numeric_limits<int>::max)() - std::int64_t{left.width()} - right.width();
     detail::require_range("gap", std::int64_t{gap}, 0, widest, "0 or more, for a total width below 2^31");
@@ -27134,7 +27175,9 @@ frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboa
         detail::require_equal("port.labels.targets.size()", port.labels.targets.size(), starboard.labels.targets.size(),
                               "that of the starboard recording");
     frame<Labels> out;
-    const auto join = [](auto& both, const auto& left, const auto& right) { both = beside(mirrored(left), right); };
+    const auto join = [](auto& both, const auto& left, const auto& right) {
+        both = side_by_side(mirrored(left), right);
+    };
     detail::for_each_image(join, out, port, starboard);
     out.stats = port.stats;
     out.stats.seabed_samples += starboard.stats.seabed_samples;
@@ -27353,7 +27396,7 @@ struct seabed_speckle {
     /// Correlation length (1 / e) in pings of intensities without steady echo or texture, 0 to 16. All labels share one
     /// field: beside a steady echo it is up to 1.4 times as long; a texture has its own length.
     float along_track = 1;
-    float across_track = 1;    ///< the same in bins
+    float across_track = 1;    ///< the same across the track, in bins
     float texture_length = 3;  ///< pings and bins between nodes of the texture's lattice, 1 to 1024; 1 / e at 0.4 of it
     std::uint64_t seed = 1;
 };
@@ -27488,7 +27531,7 @@ frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex
         const auto noisy = with_speckle(mean.view(), types.view(), completed, {r.rows.first, r.rows.step, facing}, ex);
         return is_port ? mirrored(noisy) : noisy;
     };
-    r.image = beside(channel(side::port, 0, port), channel(side::starboard, port, r.image.width() - port));
+    r.image = side_by_side(channel(side::port, 0, port), channel(side::starboard, port, r.image.width() - port));
     return r;
 }
 
@@ -27517,16 +27560,16 @@ inline namespace INSONIFY_FLAGS {
 
 /// Levels in decibels, added to the seabed's. No variation if all are 0.
 struct bottom_tone {
-    float drift = 0;            ///< rms of the drift, 0 to 30
-    float drift_length = 20;    ///< metres between nodes of its coarsest octave, 1e-4 to 1e9
-    int octaves = 3;            ///< each of half the length and half the level of the one before, 1 to 8
-    float streaks = 0;          ///< rms of streaks, 0 to 30
-    float streak_width = 1.5f;  ///< metres between nodes across them, 1e-4 to 1e9
-    float streak_length = 40;   ///< metres between nodes along them, 1e-4 to 1e9
-    float direction = 0;        ///< of the streaks, radians from +x
-    float patches = 0;          ///< level of patches relative to the rest, -30 to 30
-    float patch_size = 15;      ///< metres between nodes of their outline, 1e-4 to 1e9
-    float patch_share = 0.3f;   ///< of the area, 0.01 to 0.99
+    float drift = 0;              ///< rms of the drift, 0 to 30
+    float drift_length = 20;      ///< metres between nodes of its coarsest octave, 1e-4 to 1e9
+    int octaves = 3;              ///< each of half the length and half the level of the one before, 1 to 8
+    float streaks = 0;            ///< rms of streaks, 0 to 30
+    float streak_width = 1.5f;    ///< metres between nodes across them, 1e-4 to 1e9
+    float streak_length = 40;     ///< metres between nodes along them, 1e-4 to 1e9
+    float direction = 0;          ///< of the streaks, radians from +x
+    float patches = 0;            ///< level of patches relative to the rest, -30 to 30
+    float patch_size = 15;        ///< metres between nodes of their outline, 1e-4 to 1e9
+    float patch_coverage = 0.3f;  ///< of the area, 0.01 to 0.99
     std::uint64_t seed = 1;
 
     bool is_none() const { return drift == 0 && streaks == 0 && patches == 0; }
@@ -27548,7 +27591,7 @@ inline void validate(const bottom_tone& t) {
     require_range("bottom_tone.octaves", t.octaves, 1, 8, "1 to 8");
     require_angle("bottom_tone.direction", t.direction);
     require_range("bottom_tone.patches", t.patches, -30, 30, "-30 to 30 dB");
-    require_range("bottom_tone.patch_share", t.patch_share, 0.01f, 0.99f, "0.01 to 0.99");
+    require_range("bottom_tone.patch_coverage", t.patch_coverage, 0.01f, 0.99f, "0.01 to 0.99");
 }
 
 /// Evaluates a tone.
@@ -27562,7 +27605,7 @@ class tone_sampler {
         double squares = 0, share = 1;
         for (int i = 0; i < t.octaves; ++i, share *= 0.5) squares += share * share;
         scale_ = static_cast<double>(t.drift) / numeric::square_root(squares);
-        threshold_ = numeric::normal_quantile(1 - static_cast<double>(t.patch_share));
+        threshold_ = numeric::normal_quantile(1 - static_cast<double>(t.patch_coverage));
     }
 
     /// @returns decibels
@@ -27737,12 +27780,14 @@ struct instrument {
     }
     /// Correlation length (1 / e) of speckle intensities, in resolutions, for a pulse or an aperture with a flat band,
     /// whose correlation is the square of sin(u) / u.
-    static constexpr double flat_band_grain = 0.5234;
+    static constexpr double flat_band_speckle_length = 0.5234;
     /// Correlation length of speckle intensities across the track, metres.
-    INSONIFY_MEMBER double grain_across() const { return flat_band_grain * static_cast<double>(range_resolution); }
+    INSONIFY_MEMBER double speckle_length_across() const {
+        return flat_band_speckle_length * static_cast<double>(range_resolution);
+    }
     /// The same along the track: see horizontal_beam::speckle_length.
-    INSONIFY_MEMBER double grain_along(double slant_range) const {
-        return is_synthetic_aperture() ? flat_band_grain * static_cast<double>(along_track_resolution)
+    INSONIFY_MEMBER double speckle_length_along(double slant_range) const {
+        return is_synthetic_aperture() ? flat_band_speckle_length * static_cast<double>(along_track_resolution)
                                        : horizontal().speckle_length(slant_range, static_cast<double>(wavelength()));
     }
 };
@@ -27777,7 +27822,7 @@ inline const instrument& instrument_named(std::string_view name) {
         if (i.name == name) return i;
     std::string known;
     for (const instrument& i : instruments::all) known += (known.empty() ? "" : ", ") + std::string(i.name);
-    detail::raise(invalid_input("instrument is '" + std::string(name) + "', expected one of " + known));
+    detail::throw_error(invalid_input("instrument is '" + std::string(name) + "', expected one of " + known));
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -27810,8 +27855,7 @@ inline namespace INSONIFY_FLAGS {
 /// The light of a rig, in the world.
 inline shadow::any_light light_of(const overhead& rig) {
     shadow::any_light light = overhead_geometry(rig).world_light();
-    if (auto* from_nearby = std::get_if<shadow::point_light>(&light))
-        from_nearby->position += glm::dvec3(rig.position, 0);
+    if (auto* point = std::get_if<shadow::point_light>(&light)) point->position += glm::dvec3(rig.position, 0);
     return light;
 }
 
@@ -27897,8 +27941,8 @@ class scene_occlusion {
         return to_world;
     }
     shadow::any_light from_centre(shadow::any_light light) const {
-        if (auto* from_nearby = std::get_if<shadow::point_light>(&light))
-            from_nearby->position -= glm::dvec3(centre_.x, centre_.y, 0);
+        if (auto* point = std::get_if<shadow::point_light>(&light))
+            point->position -= glm::dvec3(centre_.x, centre_.y, 0);
         return light;
     }
     shadow::point_bounds local(const occlusion_bounds& within) const {
@@ -28250,13 +28294,13 @@ class water_law {
 
     void prepare(const pixel_area& area) {
         first_ = area.x;
-        steady_.clear();
-        for (int i = 0; i < area.width; ++i) steady_.push_back(noise_at(range(area.x + i)) + w_.volume);
+        mean_noise_.clear();
+        for (int i = 0; i < area.width; ++i) mean_noise_.push_back(noise_at(range(area.x + i)) + w_.volume);
     }
 
     template <std::same_as<float> Pixel>
     Pixel operator()(Pixel intensity, int x, int y) {
-        Pixel sum = intensity + steady_[static_cast<std::size_t>(x - first_)];
+        Pixel sum = intensity + mean_noise_[static_cast<std::size_t>(x - first_)];
         if (w_.surface > 0) sum += surface_at(x, y);
         return sum;
     }
@@ -28279,15 +28323,15 @@ class water_law {
                       static_cast<double>(w_.waves) * smooth_noise(y / static_cast<double>(w_.wave_length), key_);
         }
         const double tail = (range(x) - begins_) / static_cast<double>(w_.surface_tail);
-        // The rise takes a bin.
-        const double rise = (range(x) - begins_) / static_cast<double>(w_.bin) + 1;
-        if (rise <= 0 || tail > 80) return 0;
-        return w_.surface * static_cast<float>((rise < 1 ? rise : 1.0) * (tail > 0 ? numeric::exp(-tail) : 1.0));
+        // The onset takes a bin.
+        const double onset = (range(x) - begins_) / static_cast<double>(w_.bin) + 1;
+        if (onset <= 0 || tail > 80) return 0;
+        return w_.surface * static_cast<float>((onset < 1 ? onset : 1.0) * (tail > 0 ? numeric::exp(-tail) : 1.0));
     }
 
     Water w_;
     philox_key key_;
-    dynamic_array<float> steady_;
+    dynamic_array<float> mean_noise_;
     int first_ = 0;
     std::optional<int> row_;  // of the start below; any number, as images have any origin
     double begins_ = 0;
@@ -28430,14 +28474,16 @@ INSONIFY_SEABEDS(INSONIFY_SEABED)
 
 namespace detail::inline INSONIFY_ONCE {
 
-#define INSONIFY_PICTURE(Shadow, Labels)                                                                          \
-    frame<Labels> paint(const scene& s, const overhead& rig, built_in<Shadow, Labels> options, executor_ref ex) { \
-        return detail::paint<>(s, rig, options, ex);                                                              \
+#define INSONIFY_PICTURE(Shadow, Labels)                                                              \
+    frame<Labels> render_frame(const scene& s, const overhead& rig, built_in<Shadow, Labels> options, \
+                               executor_ref ex) {                                                     \
+        return detail::render_frame<>(s, rig, options, ex);                                           \
     }
 INSONIFY_PICTURES(INSONIFY_PICTURE)
 #undef INSONIFY_PICTURE
-visibility see(const scene& s, const overhead& rig, built_in<shadow::none, labels> options, executor_ref ex) {
-    return detail::see<>(s, rig, options, ex);
+visibility render_visibility(const scene& s, const overhead& rig, built_in<shadow::none, labels> options,
+                             executor_ref ex) {
+    return detail::render_visibility<>(s, rig, options, ex);
 }
 
 #define INSONIFY_RECORDING(Labels, Law)                                                               \

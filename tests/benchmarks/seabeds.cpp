@@ -27,7 +27,7 @@ double best_ms(const Fn& work) {
 
 /// Ripples as a user's model: forwards to the library's.
 struct own_ripples {
-    static constexpr sb::type_properties kind{sb::own_type(0), "own ripples", 0.5f, {}};
+    static constexpr sb::type_properties kind{sb::user_type(0), "own ripples", 0.5f, {}};
     sb::any_sampler prepare() const { return sb::ripples{}.prepare(); }
 };
 

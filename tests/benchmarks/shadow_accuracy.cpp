@@ -28,7 +28,7 @@ struct named_policy {
 const std::tuple policies{named_policy<in::shadow::exact>{"exact", {}},  //
                           named_policy<in::shadow::map>{"map", {}}};
 
-/// Policies that support near light.
+/// Policies that support point lights.
 template <class Policy>
 constexpr bool takes_near_light = std::is_same_v<Policy, in::shadow::exact>;
 

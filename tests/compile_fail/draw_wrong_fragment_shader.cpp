@@ -12,7 +12,7 @@ struct lit {
 
 void shade_cube(in::image<float>& color, in::image<float>& depth) {
     const auto vertex_shader = [](const in::vertex& v) {
-        return in::placed_vertex<lit>{glm::vec4(v.position, 1), {v.normal.z}};
+        return in::vertex_output<lit>{glm::vec4(v.position, 1), {v.normal.z}};
     };
 #if defined(INSONIFY_COMPILE_FAIL)
     const auto fragment_shader = [](const in::fragment<float>& f) { return f.varyings; };

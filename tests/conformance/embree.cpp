@@ -69,7 +69,7 @@ class embree_scene {
                     query.occlude(scene_, shadow);
                     lit = shadow.tfar >= 0;
                 }
-                d.add(labels.shadow(x, y) == in::labels::is_lit, lit);
+                d.add(labels.shadow(x, y) == in::labels::no_shadow, lit);
             }
         return d;
     }

@@ -46,7 +46,7 @@ picture drawn_here(const triangles& corners, int width, int height) {
 class outline {
   public:
     outline(const glm::vec4* corners, int width, int height) {
-        const in::detail::projection to_screen(in::detail::pixel_grid{8, width, height}, in::keep_depth::smaller, true);
+        const in::detail::projection to_screen(in::detail::pixel_grid{8, width, height}, in::depth_compare::less, true);
         const auto polygon = to_screen.clip({glm::dvec4(corners[0]), glm::dvec4(corners[1]), glm::dvec4(corners[2])});
         for (int i = 0; i < polygon.count; ++i) {
             const glm::dvec4& p = polygon.corners[static_cast<std::size_t>(i)].position;

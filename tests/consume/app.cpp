@@ -4,7 +4,7 @@
 namespace in = insonify;
 
 int main() {
-    in::image<float> depth(64, 64, in::empty_depth(in::keep_depth::smaller));
+    in::image<float> depth(64, 64, in::empty_depth(in::depth_compare::less));
     const auto above = [](const in::vertex& v) { return glm::vec4(v.position.x, v.position.y, 0.5f, 1); };
     in::draw(in::to_mesh(in::cube{}), above, in::depth_target{depth});
 

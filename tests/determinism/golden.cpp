@@ -155,13 +155,13 @@ void triangles() {
     }
     m.positions[77].y = std::numeric_limits<float>::quiet_NaN();
     const auto vertex_shader = [](const in::vertex& v) {
-        return in::placed_vertex<glm::vec3>{{v.position.x, v.position.y, 0.05f, v.position.z}, v.position};
+        return in::vertex_output<glm::vec3>{{v.position.x, v.position.y, 0.05f, v.position.z}, v.position};
     };
     for (const int bits : {8, 16}) {
         in::image<glm::vec3> color(160, 120);
         in::image<float> depth(160, 120);
         in::draw(m, vertex_shader, [](const auto& f) { return f.varyings; }, in::framebuffer<glm::vec3>{color, depth},
-                 {.keep = in::keep_depth::larger, .load = in::depth_load::clear, .subpixel_bits = bits});
+                 {.compare = in::depth_compare::greater, .load = in::depth_load::clear, .subpixel_bits = bits});
         hash h;
         h.add(color);
         h.add(depth);

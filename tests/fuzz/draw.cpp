@@ -79,10 +79,10 @@ drawing read(byte_reader& bytes) {
     d.options.subpixel_bits = 4 + bytes.below(13);
     d.options.tile = 8 << bytes.below(6);
     d.options.cull = static_cast<in::cull_mode>(bytes.below(3));
-    d.options.keep = static_cast<in::keep_depth>(bytes.below(2));
+    d.options.compare = static_cast<in::depth_compare>(bytes.below(2));
     d.options.load = static_cast<in::depth_load>(bytes.below(2));
     d.options.level = static_cast<in::isa>(bytes.below(4));
-    d.background = bytes.below(2) == 0 ? in::empty_depth(d.options.keep) : 0.5f;
+    d.background = bytes.below(2) == 0 ? in::empty_depth(d.options.compare) : 0.5f;
     d.in_pixels = bytes.below(2) == 0;
 
     const int triangles = bytes.below(8), vertices = bytes.below(12);
@@ -101,7 +101,7 @@ drawing read(byte_reader& bytes) {
 [[noreturn]] void fail(const drawing& d, const char* invariant) {
     const in::draw_options<>& o = d.options;
     std::fprintf(stderr, "%d x %d pixels, %d sub-pixel bits, tile %d, cull %d, keep %d, load %d, level %d\n", d.width,
-                 d.height, o.subpixel_bits, o.tile, static_cast<int>(o.cull), static_cast<int>(o.keep),
+                 d.height, o.subpixel_bits, o.tile, static_cast<int>(o.cull), static_cast<int>(o.compare),
                  static_cast<int>(o.load), static_cast<int>(o.level));
     for (const glm::uvec3& t : d.mesh.triangles) std::fprintf(stderr, "triangle %u %u %u\n", t.x, t.y, t.z);
     for (const glm::dvec4 p : d.clip) std::fprintf(stderr, "vertex %.9g %.9g %.9g %.9g\n", p.x, p.y, p.z, p.w);
@@ -170,13 +170,13 @@ picture drawn(const drawing& d, const in::draw_options<>& options, auto&& execut
 
 void check_depth(const drawing& d, const picture& p) {
     const bool cleared = d.options.load == in::depth_load::clear;
-    const float before = cleared ? in::empty_depth(d.options.keep) : d.background;
+    const float before = cleared ? in::empty_depth(d.options.compare) : d.background;
     for (std::size_t i = 0; i < p.depth.size(); ++i) {
         const float now = p.depth.pixels()[i];
         if (p.shaded.pixels()[i] == 0)
             demand(d, now == before, "a pixel that isn't shaded keeps its depth");
         else
-            demand(d, d.options.keep == in::keep_depth::smaller ? now < before : now > before,
+            demand(d, d.options.compare == in::depth_compare::less ? now < before : now > before,
                    "the visible surface is in front");
     }
 }

@@ -42,8 +42,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {
         const in::textured_mesh m = in::read_textured_obj(text);
         check(m.shape, size);
-        demand(m.texture.size() == m.shape.positions.size(), "there is one texture coordinate per position");
-        for (const glm::vec2& t : m.texture) demand(is_finite({t, 0}), "texture coordinates are finite");
+        demand(m.texture_coordinates.size() == m.shape.positions.size(),
+               "there is one texture coordinate per position");
+        for (const glm::vec2& t : m.texture_coordinates) demand(is_finite({t, 0}), "texture coordinates are finite");
     } catch (const in::io_error&) {
     }
     return 0;

@@ -19,7 +19,7 @@ probe_result PROBE() {
         const auto words = in::philox4x32({static_cast<std::uint32_t>(f.x), static_cast<std::uint32_t>(f.y), 0, 0}, {});
         return static_cast<float>(in::normal_pair(words[0], words[1])[0]) + f.weights.x;
     };
-    in::image<float> color(97, 61, -1.0f), depth(97, 61, in::empty_depth(in::keep_depth::smaller));
+    in::image<float> color(97, 61, -1.0f), depth(97, 61, in::empty_depth(in::depth_compare::less));
     in::draw(in::to_mesh(in::cube{}), vertex_shader, speckle, in::framebuffer<float>{color, depth});
 
     probe_result result{TEXT_OF(INSONIFY_ABI) " " TEXT_OF(INSONIFY_FLAGS), 0xcbf29ce484222325u, 0};

@@ -34,7 +34,7 @@ int main() {
         sb::sediment_of_phi(-2.1f) == in::sediment::shells && sb::type_of(in::sediment::shells) == sb::type::shells &&
         sb::only_type(sb::bottom_of(in::sediment::shells)) == sb::type::shells && speckle.bottom[shells].texture == 2.5f &&
         scene.bottom[shells].reflectivity > scene.bottom[sb::index_of(sb::type::medium_sand)].reflectivity &&
-        static_cast<int>(sb::own_type(0)) == 64;
+        static_cast<int>(sb::user_type(0)) == 64;
     std::puts(right ? "the new rows work" : "the new rows lack a property");
     return right ? 0 : 1;
 }

@@ -47,7 +47,7 @@ BANNED_NAMES = {
 NO_ARITHMETIC = {
     UMBRELLA, ALL, "compiled.hpp", "fwd.hpp", "version.hpp", "config.hpp", "core/error.hpp", "core/executor.hpp", "core/detail/filled.hpp",
     "core/image.hpp", "core/image_view.hpp", "core/detail/int128.hpp", "core/detail/portable.hpp", "core/context.hpp", "core/detail/block_pool.hpp",
-    "core/thread_pool.hpp", "core/detail/array_bytes.hpp", "core/detail/dynamic_array.hpp", "core/detail/uninitialized.hpp", "geometry/mesh.hpp", "shadow/detail/tile_occupants.hpp", "io/file.hpp", "io/manifest.hpp", "io/png.hpp", "core/detail/file.hpp", "raster/framebuffer.hpp",
+    "core/thread_pool.hpp", "core/detail/array_bytes.hpp", "core/detail/dynamic_array.hpp", "core/detail/uninitialized.hpp", "geometry/mesh.hpp", "shadow/detail/tile_casters.hpp", "io/file.hpp", "io/manifest.hpp", "io/png.hpp", "core/detail/file.hpp", "raster/framebuffer.hpp",
     "core/rect.hpp", "raster/draw_options.hpp", "raster/interpolatable.hpp", "seabed/models.hpp", "geometry/shared_mesh.hpp",
     "sonar/side_scan/record.hpp", "testing.hpp", "testing/catch2.hpp", "testing/golden.hpp",
 }

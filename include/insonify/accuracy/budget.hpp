@@ -28,9 +28,9 @@ inline int max_subpixel_bits(const overhead& rig) {
     return (std::max)(rig.size.x, rig.size.y) > 16384 ? 15 : 16;
 }
 
-/// Cotangent of the light's elevation where it is lowest in the picture.
+/// Upper bound of the cotangent of the light's elevation in the picture.
 inline double largest_cot_elevation(const overhead_geometry& view) {
-    if (!view.has_near_light()) return view.light().cot_elevation();
+    if (!view.has_point_light()) return view.light().cot_elevation();
     const glm::dvec3 light = view.light_position();
     const glm::dvec2 corner = view.half_extent(0);
     return (numeric::square_root(light.x * light.x + light.y * light.y) +
@@ -122,7 +122,7 @@ struct settings {
 
     /// A distance across the ray of light that grazes a ball's far side, over that by which it moves the shadow's edge.
     INSONIFY_TAGGED static double across_light(const overhead_geometry& view, const glm::dvec3& centre, double radius) {
-        if (!view.has_near_light()) return view.light().to_light().z;
+        if (!view.has_point_light()) return view.light().to_light().z;
         const glm::dvec3 light = view.light_position();
         const double above = (std::max)(light.z - centre.z - radius, 0.05 * light.z);
         const double x = centre.x - light.x, y = centre.y - light.y;
@@ -163,7 +163,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     detail::require_range("probe.chips", how.chips, 1, 1024, "1 to 1024");
     detail::require_range("probe.pixels", how.pixels, 1, 2048, "1 to 2048");
     detail::require_range("probe.finest", how.finest, 1, 8, "1 to 8 cells per pixel");
-    require(how.usable_share > 0 && how.usable_share <= 1, "probe.usable_share", how.usable_share,
+    require(how.usable_fraction > 0 && how.usable_fraction <= 1, "probe.usable_fraction", how.usable_fraction,
             "above 0 and at most 1");
 
     const overhead_geometry view(rig);
@@ -195,8 +195,9 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         if (is_fine && !finer) {
             probe twice = how;
             twice.finest *= 2;
-            // A picture has at most 32768 cells a side, and 2^28 altogether.
-            twice.pixels = (std::min)(twice.pixels, static_cast<int>(12000 / twice.finest));
+            // With the ground towards a low light a grid is up to 9 times as long as the picture along either axis, and
+            // has at most 2^28 vertices.
+            twice.pixels = (std::min)(twice.pixels, static_cast<int>(1700 / twice.finest));
             finer.emplace(bottom, rig, twice, truth{}, ex);
         }
         errors all = (is_fine ? *finer : probed).errors_of(cells_per_pixel, policy, ex);
@@ -206,8 +207,8 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         all.silhouette = tolerated.silhouette;
         return all;
     };
-    const budget usable{how.usable_share * tolerated.shadow_edge, tolerated.silhouette,
-                        how.usable_share * tolerated.height, how.usable_share * tolerated.intensity};
+    const budget usable{how.usable_fraction * tolerated.shadow_edge, tolerated.silhouette,
+                        how.usable_fraction * tolerated.height, how.usable_fraction * tolerated.intensity};
 
     // From the coarsest grid on, halving the cells each time, at first with more texels than can matter. If no grid is
     // within the budget, the one that exceeds it least is taken.

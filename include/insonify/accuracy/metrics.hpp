@@ -19,30 +19,30 @@ namespace accuracy {
 
 /// Counts of pixels; a pixel other than 0 belongs to the mask.
 struct mask_difference {
-    std::size_t common = 0;           ///< in both masks
-    std::size_t false_pixels = 0;     ///< in the result, not in the truth: for shadows, acne
-    std::size_t missed_pixels = 0;    ///< in the truth, not in the result: for shadows, light leaks
+    std::size_t true_positives = 0;   ///< in both masks
+    std::size_t false_positives = 0;  ///< in the result, not in the truth: for shadows, acne
+    std::size_t false_negatives = 0;  ///< in the truth, not in the result: for shadows, light leaks
     std::size_t boundary_pixels = 0;  ///< of the truth: in the mask, with a 4-neighbour in the image that is not
 
-    INSONIFY_MEMBER std::size_t wrong_pixels() const { return false_pixels + missed_pixels; }
+    INSONIFY_MEMBER std::size_t wrong_pixels() const { return false_positives + false_negatives; }
 
     /// Of several pictures together.
     INSONIFY_MEMBER mask_difference& operator+=(const mask_difference& other) {
-        common += other.common;
-        false_pixels += other.false_pixels;
-        missed_pixels += other.missed_pixels;
+        true_positives += other.true_positives;
+        false_positives += other.false_positives;
+        false_negatives += other.false_negatives;
         boundary_pixels += other.boundary_pixels;
         return *this;
     }
 
     /// Intersection over union (Jaccard index), 1 when both masks are empty.
     INSONIFY_MEMBER double intersection_over_union() const {
-        const std::size_t joined = common + wrong_pixels();
-        return joined == 0 ? 1.0 : static_cast<double>(common) / static_cast<double>(joined);
+        const std::size_t joined = true_positives + wrong_pixels();
+        return joined == 0 ? 1.0 : static_cast<double>(true_positives) / static_cast<double>(joined);
     }
     /// Mean displacement of the boundary along its length, pixels: wrong pixels over boundary pixels. Infinite if there
-    /// are wrong pixels but no boundary. A missing feature contributes its area over the length of its boundary, at
-    /// most half its width, however far it is from any other.
+    /// are wrong pixels but no boundary. A missing feature contributes its area over the length of its boundary,
+    /// about half its width, however far it is from any other.
     INSONIFY_TAGGED double mean_boundary_displacement() const {
         if (wrong_pixels() == 0) return 0;
         if (boundary_pixels == 0) return std::numeric_limits<double>::infinity();
@@ -117,10 +117,10 @@ inline mask_difference compare_masks(image_view<const std::uint8_t> result, imag
         for (int x = 0; x < width; ++x) {
             const bool found = result(x, y) != 0;
             if (truth(x, y) == 0) {
-                out.false_pixels += found ? 1 : 0;
+                out.false_positives += found ? 1 : 0;
                 continue;
             }
-            (found ? out.common : out.missed_pixels) += 1;
+            (found ? out.true_positives : out.false_negatives) += 1;
             const bool boundary = (x > 0 && truth(x - 1, y) == 0) || (x + 1 < width && truth(x + 1, y) == 0) ||
                                   (y > 0 && truth(x, y - 1) == 0) || (y + 1 < height && truth(x, y + 1) == 0);
             out.boundary_pixels += boundary ? 1 : 0;

@@ -31,7 +31,8 @@ struct probe {
     /// Cells per pixel of the ground truth, and the most that settings take; grids of more than half as many are
     /// compared with a truth of twice as many.
     double finest = 4;
-    double usable_share = 0.7;  ///< fraction of the budget that they may use; the rest is for other parts of the seabed
+    double usable_fraction =
+        0.7;  ///< fraction of the budget that they may use; the rest is for other parts of the seabed
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -66,18 +67,18 @@ class seabed_probe {
             const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
             chip.position +=
                 glm::dvec2(in_picture.x * cosine - in_picture.y * sine, in_picture.x * sine + in_picture.y * cosine);
-            if (view.has_near_light()) {  // the light keeps its position in the world
+            if (view.has_point_light()) {  // the light keeps its position in the world
                 const glm::dvec3 light = view.light_position() - glm::dvec3(in_picture, 0);
                 const double level = numeric::square_root(light.x * light.x + light.y * light.y);
                 chip.light_distance = static_cast<float>(numeric::square_root(level * level + light.z * light.z));
-                chip.grazing = static_cast<float>(numeric::atan2(light.z, level));
+                chip.grazing = (std::max)(static_cast<float>(numeric::atan2(light.z, level)), 1e-9f);
                 chip.light_azimuth = static_cast<float>(numeric::atan2(-light.y, -light.x));
             }
             chip.size = {pixels_, pixels_};
             const double half = view.half_extent(0).x * pixels_ / rig.size.x;
             chip.field_of_view = static_cast<float>(2 * numeric::atan2(half, static_cast<double>(rig.altitude)));
             chips_.push_back(chip);
-            truths_.push_back(draw(chip, how.finest, shadow, ex));
+            truths_.push_back(render_chip(chip, how.finest, shadow, ex));
         }
     }
 
@@ -87,11 +88,11 @@ class seabed_probe {
         accuracy::mask_difference edges;
         double squares = 0, pixels = 0, heights = 0;
         for (std::size_t i = 0; i < chips_.size(); ++i) {
-            const auto result = draw(chips_[i], cells_per_pixel, shadow, ex);
+            const auto result = render_chip(chips_[i], cells_per_pixel, shadow, ex);
             edges += accuracy::compare_masks(result.dark, truths_[i].dark);
-            const auto off = accuracy::compare_images(result.values, truths_[i].values);
-            squares += off.mean_square * static_cast<double>(off.pixels);
-            pixels += static_cast<double>(off.pixels);
+            const auto difference = accuracy::compare_images(result.values, truths_[i].values);
+            squares += difference.mean_square * static_cast<double>(difference.pixels);
+            pixels += static_cast<double>(difference.pixels);
             heights += mean_square_height_error(chips_[i], cells_per_pixel) / static_cast<double>(chips_.size());
         }
         accuracy::errors all{.shadow_edge = 0, .silhouette = 0};
@@ -111,12 +112,12 @@ class seabed_probe {
     };
 
     template <class Shadow, executor E>
-    picture draw(const overhead& chip, double cells_per_pixel, const Shadow& shadow, E& ex) const {
+    picture render_chip(const overhead& chip, double cells_per_pixel, const Shadow& shadow, E& ex) const {
         const render_options<Shadow> options{.shadow = shadow,
                                              .cell = overhead_geometry(chip).ground_sampling() / cells_per_pixel};
         auto drawn = render(scene_, chip, options, ex);
         return {std::move(drawn.image), map_pixels(drawn.labels.shadow, [](std::uint16_t by) {
-                    return static_cast<std::uint8_t>(by != labels::is_lit);
+                    return static_cast<std::uint8_t>(by != labels::no_shadow);
                 })};
     }
 
@@ -141,10 +142,10 @@ class seabed_probe {
                                         .grid_spacing = pixel_ / how_.finest};
             prepared.row(line, heights, {});
             for (std::size_t i = 0; i < heights.size(); ++i) {
-                const double off =
+                const double difference =
                     static_cast<double>(heights[i]) - static_cast<double>(field.height_at(line.x(i), line.y));
-                if (!numeric::is_finite(off)) continue;
-                sum += off * off;
+                if (!numeric::is_finite(difference)) continue;
+                sum += difference * difference;
                 ++known;
             }
         }

@@ -32,7 +32,7 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// Throws the error. Without exceptions it calls INSONIFY_THROW, or else writes the message to stderr and terminates.
 template <class Error>
-[[noreturn]] void raise(Error error) {
+[[noreturn]] void throw_error(Error error) {
 #if defined(__cpp_exceptions)
     throw error;
 #elif defined(INSONIFY_THROW)
@@ -75,7 +75,7 @@ std::string element_name(std::string_view list, Number i) {
 [[noreturn]] inline void refuse_text(std::string_view argument, std::string_view value, std::string_view expected) {
     std::string message(argument);
     message.append(" is ").append(value).append(", expected ").append(expected);
-    raise(invalid_input(message));
+    throw_error(invalid_input(message));
 }
 template <arithmetic Number>
 [[noreturn]] void refuse(std::string_view argument, Number value, std::string_view expected) {

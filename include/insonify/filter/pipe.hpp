@@ -38,7 +38,7 @@ struct filter_chain {
     INSONIFY_TAGGED auto run(Source&& source, const Context& context) const {
         return std::apply(
             [&](const Stages&... each) {
-                return detail::run_stages(std::forward<Source>(source), detail::untouched{}, context, each...);
+                return detail::run_stages(std::forward<Source>(source), detail::identity_pass{}, context, each...);
             },
             stages);
     }
@@ -86,7 +86,7 @@ auto apply_to(Source&& source, const F& f, E& ex, pixel_origin origin, Sink sink
     if constexpr (is_chain<F>)
         return f.run(std::forward<Source>(source), run);
     else
-        return run_stages(std::forward<Source>(source), untouched{}, run, f);
+        return run_stages(std::forward<Source>(source), identity_pass{}, run, f);
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS

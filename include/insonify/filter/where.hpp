@@ -106,10 +106,10 @@ where_filter<F> masked(image_view<const std::uint8_t> mask, const kept_mask& kep
 /// Each stage of a chain.
 template <class... Stages>
 filter_chain<where_filter<Stages>...> masked(image_view<const std::uint8_t> mask, const kept_mask& kept,
-                                             const filter_chain<Stages...>& chain) {
+                                             filter_chain<Stages...> chain) {
     return std::apply(
-        [&](const Stages&... stages) {
-            return filter_chain<where_filter<Stages>...>{{{mask, stages, kept}...}};
+        [&](Stages&... stages) {
+            return filter_chain<where_filter<Stages>...>{{{mask, std::move(stages), kept}...}};
         },
         chain.stages);
 }
@@ -127,14 +127,18 @@ inline namespace INSONIFY_FLAGS {
 /// @param mask    of the image's size; its pixels must exist until the filter has run
 /// @param filter  of pixels or measured, not of images, with results of the same pixel type
 template <class Filter>
-auto where(image_view<const std::uint8_t> mask, const Filter& filter) {
-    return detail::masked(mask, nullptr, filter);
+auto where(image_view<const std::uint8_t> mask, Filter&& filter) {
+    return detail::masked(mask, nullptr, std::forward<Filter>(filter));
 }
 /// The same with a mask that is a temporary, which the filter keeps.
 template <class Filter>
-auto where(image<std::uint8_t>&& mask, const Filter& filter) {
+auto where(image<std::uint8_t>&& mask, Filter&& filter) {
     const auto kept = std::make_shared<const image<std::uint8_t>>(std::move(mask));
-    return detail::masked(kept->view(), kept, filter);
+    return detail::masked(kept->view(), kept, std::forward<Filter>(filter));
+}
+template <class Filter>
+auto where(const image<std::uint8_t>&& mask, Filter&& filter) {
+    return where(image<std::uint8_t>(mask), std::forward<Filter>(filter));
 }
 
 }  // namespace INSONIFY_FLAGS

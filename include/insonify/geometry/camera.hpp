@@ -2,7 +2,7 @@
 //
 // Its clip space is the library's: visible is -w <= x <= w, -w <= y <= w with y up, and 0 <= z <= w. Depth is reversed,
 // z / w = z_near / distance along the camera's axis, so that precision does not fall off far away (draw with
-// keep_depth::larger).
+// depth_compare::greater).
 #pragma once
 
 #include <insonify/core/linear.hpp>

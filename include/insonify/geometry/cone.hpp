@@ -40,15 +40,15 @@ INSONIFY_FUNCTION mesh to_mesh(const cone& shape) {
     const double slant = numeric::square_root(height * height + (radius - top) * (radius - top));
     const double outwards = height / slant;
     const double upwards = (radius - top) / slant;
-    detail::dynamic_array<outline_point> outline = {{0, -height / 2, 0, -1},
+    detail::dynamic_array<profile_point> profile = {{0, -height / 2, 0, -1},
                                                     {radius, -height / 2, 0, -1},
                                                     {radius, -height / 2, outwards, upwards},
                                                     {top, height / 2, outwards, upwards}};
     if (top > 0) {
-        outline.push_back({top, height / 2, 0, 1});
-        outline.push_back({0, height / 2, 0, 1});
+        profile.push_back({top, height / 2, 0, 1});
+        profile.push_back({0, height / 2, 0, 1});
     }
-    return revolve(outline, shape.segments);
+    return revolve(profile, shape.segments);
 }
 #endif
 

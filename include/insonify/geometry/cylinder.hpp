@@ -42,13 +42,13 @@ INSONIFY_FUNCTION mesh to_mesh(const cylinder& shape) {
     detail::require_revolved_segments("cylinder.segments", shape.segments);
     const auto radius = static_cast<double>(shape.radius);
     const double half = 0.5 * static_cast<double>(shape.length);
-    const std::array<outline_point, 6> outline = {{{0, -half, 0, -1},
+    const std::array<profile_point, 6> profile = {{{0, -half, 0, -1},
                                                    {radius, -half, 0, -1},
                                                    {radius, -half, 1, 0},
                                                    {radius, half, 1, 0},
                                                    {radius, half, 0, 1},
                                                    {0, half, 0, 1}}};
-    return revolve(outline, shape.segments, axis::x);
+    return revolve(profile, shape.segments, axis::x);
 }
 
 INSONIFY_FUNCTION mesh to_mesh(const capsule& shape) {
@@ -59,10 +59,10 @@ INSONIFY_FUNCTION mesh to_mesh(const capsule& shape) {
     const auto radius = static_cast<double>(shape.radius);
     const double straight = 0.5 * static_cast<double>(shape.length) - radius;
     const int steps = (shape.segments + 3) / 4;
-    detail::dynamic_array<outline_point> outline;
-    detail::append_arc(outline, radius, -straight, 0.0, 0.25, steps);
-    detail::append_arc(outline, radius, straight, 0.25, 0.5, steps);
-    return revolve(outline, shape.segments, axis::x);
+    detail::dynamic_array<profile_point> profile;
+    detail::append_arc(profile, radius, -straight, 0.0, 0.25, steps);
+    detail::append_arc(profile, radius, straight, 0.25, 0.5, steps);
+    return revolve(profile, shape.segments, axis::x);
 }
 #endif
 

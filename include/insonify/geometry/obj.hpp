@@ -30,7 +30,7 @@ inline namespace INSONIFY_ABI {
 /// A mesh with texture coordinates, for shaders to look up by `vertex::index`.
 struct textured_mesh {
     mesh shape;
-    std::vector<glm::vec2> texture;  ///< one per position; (0, 0) is the lower left corner of the texture
+    std::vector<glm::vec2> texture_coordinates;  ///< one per position; (0, 0) is the lower left corner of the texture
 };
 
 namespace detail::inline INSONIFY_FLAGS {
@@ -71,7 +71,7 @@ class obj_reader {
             else if (keyword == "vn")
                 normals_.push_back(vector(glm::dvec3(0)));
             else if (keyword == "vt" && reads_texture_)
-                texture_.push_back(texture_coordinate());
+                texture_coordinates_.push_back(texture_coordinate());
             else if (keyword == "f")
                 face();
             finish_line();
@@ -194,7 +194,7 @@ class obj_reader {
         const std::size_t second = slash == text.npos ? text.npos : text.find('/', slash + 1);
         corner out{index(text.substr(0, slash), positions_.size(), "position"), none, none};
         if (reads_texture_ && slash != text.npos && slash + 1 < (std::min)(second, text.size()))
-            out.texture = index(text.substr(slash + 1, second - slash - 1), texture_.size(), "texture");
+            out.texture = index(text.substr(slash + 1, second - slash - 1), texture_coordinates_.size(), "texture");
         if (second != text.npos && second + 1 < text.size())
             out.normal = index(text.substr(second + 1), normals_.size(), "normal");
         return out;
@@ -246,7 +246,9 @@ class obj_reader {
                     complete = complete && length > 0;
                     out.positions.push_back(positions_[p]);
                     out.normals.push_back(length > 0 ? glm::vec3(n / length) : glm::vec3(0));
-                    if (has_texture) all.texture.push_back(texture == none ? glm::vec2(0) : texture_[texture]);
+                    if (has_texture)
+                        all.texture_coordinates.push_back(texture == none ? glm::vec2(0)
+                                                                          : texture_coordinates_[texture]);
                 }
                 vertex[*at] = static_cast<std::uint32_t>(out.positions.size() - 1);
             }
@@ -271,7 +273,7 @@ class obj_reader {
     std::size_t at_ = 0;
     std::size_t line_ = 1;
     std::vector<glm::vec3> positions_, normals_;
-    std::vector<glm::vec2> texture_;
+    std::vector<glm::vec2> texture_coordinates_;
     std::vector<corner> corners_;  // three per triangle
     std::vector<corner> polygon_;  // the face being read
     std::vector<glm::vec3> outline_;

@@ -30,7 +30,7 @@ struct regular_grid {
     glm::dvec2 origin{0}, right{0}, up{0};  ///< metres, in the mesh's frame
     /// Cells are cut from vertex (i, j) to (i + 1, j + 1), or else from (i + 1, j) to (i, j + 1).
     bool is_rising = true;
-    double off = 0x1p-12;  ///< bound of the distance of vertices from the lattice, in steps
+    double lattice_error = 0x1p-12;  ///< bound of the distance of vertices from the lattice, in steps
 };
 
 #if INSONIFY_BODIES
@@ -75,7 +75,7 @@ struct cell_row_kernel {
     }
 };
 
-/// Columns of the grid that a mesh's first two triangles belong to, and how they cut its first cell; or nothing.
+/// The number of columns of a grid and the diagonal of its cells, from the mesh's first two triangles.
 struct cell_cut {
     std::uint32_t columns;
     bool is_rising;
@@ -94,8 +94,7 @@ struct cell_cut {
     }
 
   private:
-    /// Each triangle goes around the cell and leaves one corner out, the two of them opposite ones.
-    /// @returns the first's
+    /// The corner of the cell that the first triangle omits, if the second omits the opposite one.
     static std::optional<int> missing_corner(const glm::uvec3 (&cell)[2], const std::uint32_t (&around)[4]) {
         int left_out[2];
         for (int i = 0; i < 2; ++i) {
@@ -120,10 +119,10 @@ inline namespace INSONIFY_ONCE {
 /// The regular grid of a mesh's vertices; none if they are not on one, or a height is not finite.
 /// @param off  distance from the lattice up to which vertices are accepted, in steps; `regular_grid::off` of the result
 ///             bounds the actual distance
-INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m, double off = 1.0 / 256);
+INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m, double tolerance = 1.0 / 256);
 
 #if INSONIFY_BODIES
-INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m, double off) {
+INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m, double tolerance) {
     if (m.triangles.size() < 2) return std::nullopt;
     const glm::uvec3 cell[2] = {m.triangles[0], m.triangles[1]};
     const auto cut = detail::cell_cut::of(cell);
@@ -141,7 +140,7 @@ INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m
     const auto square = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
     // Metres between the lines of the lattice. Of an oblique one this is less than the length of a step.
     const double step = numeric::abs(area) / numeric::square_root((std::max)(square(right), square(up)));
-    const double farthest_accepted = square({step * off, 0});
+    const double farthest_accepted = square({step * tolerance, 0});
 
     double farthest = 0;  // squared
     for (std::size_t j = 0; j < rows; ++j) {

@@ -19,9 +19,9 @@ inline namespace INSONIFY_ABI {
 /// Axis of a body of revolution.
 enum class axis { x, y, z };
 
-/// A point of the outline that is turned about the axis, and the unit normal there, both in the half plane
+/// A point of the profile that is turned about the axis, and the unit normal there, both in the half plane
 /// (distance from the axis, height along it); metres.
-struct outline_point {
+struct profile_point {
     double radius = 0;
     double height = 0;
     double normal_radius = 0;
@@ -55,11 +55,11 @@ namespace detail::inline INSONIFY_FLAGS {
 #if INSONIFY_BODIES
 /// Appends an arc of a circle centred on the axis, `steps` + 1 points from `first` to `last`: turns, counted from the
 /// lowest point (0) over the equator (1/4) to the highest (1/2).
-inline void append_arc(dynamic_array<outline_point>& outline, double radius, double centre, double first, double last,
+inline void append_arc(dynamic_array<profile_point>& profile, double radius, double centre, double first, double last,
                        int steps) {
     for (int i = 0; i <= steps; ++i) {
         const auto [sine, cosine] = numeric::sin_cos_turns(first + (last - first) * i / steps);
-        outline.push_back({radius * sine, centre - radius * cosine, sine, -cosine});
+        profile.push_back({radius * sine, centre - radius * cosine, sine, -cosine});
     }
 }
 
@@ -106,37 +106,37 @@ int round_segments_for(float radius, float deviation, const RingsOf& rings_of) {
 
 inline namespace INSONIFY_ONCE {
 
-/// The outline turned about an axis. Two points in the same place with different normals make a sharp edge.
+/// The profile turned about an axis. Two points in the same place with different normals make a sharp edge.
 ///
 /// Vertices lie on the true surface, so the mesh is inscribed where it bulges and its error falls with segments^-2.
-/// It is closed if the outline starts and ends on the axis; closed by index alone if it has no sharp edge and no tip.
+/// It is closed if the profile starts and ends on the axis; closed by index alone if it has no sharp edge and no tip.
 ///
-/// @param outline   from low to high along the outside, so that triangles face away from the axis
+/// @param profile   from low to high along the outside, so that triangles face away from the axis
 /// @param segments  around the axis, 3 to 2^20
 /// @throws invalid_input for another number of segments, more than 2^28 vertices, or a point that is not finite or
 ///         beyond the axis
-INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segments, axis around = axis::z);
+INSONIFY_FUNCTION mesh revolve(std::span<const profile_point> profile, int segments, axis around = axis::z);
 
 #if INSONIFY_BODIES
-INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segments, axis around) {
+INSONIFY_FUNCTION mesh revolve(std::span<const profile_point> profile, int segments, axis around) {
     detail::require_revolved_segments("segments", segments);
     const auto count = static_cast<std::uint32_t>(segments);
-    detail::require(outline.size() <= (std::size_t{1} << 28) / count, "outline.size()", outline.size(),
+    detail::require(profile.size() <= (std::size_t{1} << 28) / count, "profile.size()", profile.size(),
                     "at most 2^28 vertices in all");
 
     mesh out;
     // The components of a vector along the axis and across it follow each other cyclically: a rotation, not a mirror.
     const int along = static_cast<int>(around);
-    const auto turned = [&](double radius, double height, const numeric::sine_cosine& angle) {
+    const auto revolved = [&](double radius, double height, const numeric::sine_cosine& angle) {
         glm::vec3 v;
         v[along] = static_cast<float>(height);
         v[(along + 1) % 3] = static_cast<float>(radius * angle.cosine);
         v[(along + 2) % 3] = static_cast<float>(radius * angle.sine);
         return v;
     };
-    const auto add_vertex = [&](const outline_point& p, const numeric::sine_cosine& angle) {
-        out.positions.push_back(turned(p.radius, p.height, angle));
-        out.normals.push_back(turned(p.normal_radius, p.normal_height, angle));
+    const auto add_vertex = [&](const profile_point& p, const numeric::sine_cosine& angle) {
+        out.positions.push_back(revolved(p.radius, p.height, angle));
+        out.normals.push_back(revolved(p.normal_radius, p.normal_height, angle));
     };
 
     detail::dynamic_array<numeric::sine_cosine> angles(count), half_angles(count);
@@ -151,10 +151,10 @@ INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segme
         std::uint32_t operator()(std::uint32_t segment) const { return first + step * segment; }
     };
     ring below{};
-    for (std::size_t k = 0; k < outline.size(); ++k) {
-        const outline_point& p = outline[k];
-        detail::require_not_negative("outline_point.radius", p.radius);
-        detail::require(numeric::is_finite(p.height), "outline_point.height", p.height, "finite");
+    for (std::size_t k = 0; k < profile.size(); ++k) {
+        const profile_point& p = profile[k];
+        detail::require_not_negative("profile_point.radius", p.radius);
+        detail::require(numeric::is_finite(p.height), "profile_point.height", p.height, "finite");
         const bool on_axis = p.radius == 0;
         const ring here{static_cast<std::uint32_t>(out.positions.size()), on_axis && p.normal_radius == 0 ? 0u : 1u};
 
@@ -164,8 +164,8 @@ INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segme
         else
             for (const auto& angle : on_axis ? half_angles : angles) add_vertex(p, angle);
 
-        const bool joined = k > 0 && (outline[k - 1].radius != p.radius || outline[k - 1].height != p.height);
-        const bool below_on_axis = k > 0 && outline[k - 1].radius == 0;
+        const bool joined = k > 0 && (profile[k - 1].radius != p.radius || profile[k - 1].height != p.height);
+        const bool below_on_axis = k > 0 && profile[k - 1].radius == 0;
         for (std::uint32_t i = 0; joined && i < count; ++i) {
             const std::uint32_t j = i + 1 == count ? 0 : i + 1;
             if (!below_on_axis) out.triangles.emplace_back(below(i), below(j), here(on_axis ? i : j));

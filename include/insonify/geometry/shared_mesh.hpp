@@ -24,7 +24,7 @@ inline namespace INSONIFY_ABI {
 namespace detail {
 
 /// State that copies of a shared mesh refer to.
-struct mesh_facts {
+struct mesh_properties {
     mesh shape;
     bounding_box box;
     surface_kind kind = surface_kind::open;
@@ -38,9 +38,9 @@ struct mesh_facts {
 namespace detail::inline INSONIFY_ONCE {
 
 /// @throws invalid_input for indices or normals that don't match the positions
-INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m);
+INSONIFY_FUNCTION std::shared_ptr<const mesh_properties> mesh_properties_of(mesh m);
 /// The same for the mesh of a primitive, of which only the bounds have to be computed.
-INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> primitive_facts_of(mesh m);
+INSONIFY_FUNCTION std::shared_ptr<const mesh_properties> primitive_properties_of(mesh m);
 
 #if INSONIFY_BODIES
 /// Whether a heightfield, whose outline is convex, extends over all of its box, seen from above.
@@ -57,29 +57,31 @@ inline bool fills_box(const mesh& m, const bounding_box& box) {
     return has_corner[0] && has_corner[1] && has_corner[2] && has_corner[3];
 }
 
-INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m) {
-    const auto made = std::make_shared<mesh_facts>();
-    mesh_facts& facts = *made;
-    facts.shape = std::move(m);
-    validate(facts.shape);
-    facts.box = bounds(facts.shape);
-    if (!facts.shape.normals.empty()) wind_by_normals(facts.shape);  // first: triangles of a grid are counter-clockwise
-    facts.grid = regular_grid_of(facts.shape, mesh_facts::grid_error);
-    if (!facts.grid && order_by_lattice(facts.shape))
-        facts.grid = regular_grid_of(facts.shape, mesh_facts::grid_error);
-    else if (!facts.grid && is_incoherent(facts.shape))
-        order_along_curve(facts.shape, facts.box);
-    if (facts.shape.normals.empty()) facts.shape.normals = smooth_normals(facts.shape);
-    facts.kind = kind_of(facts.shape);
+INSONIFY_FUNCTION std::shared_ptr<const mesh_properties> mesh_properties_of(mesh m) {
+    const auto made = std::make_shared<mesh_properties>();
+    mesh_properties& properties = *made;
+    properties.shape = std::move(m);
+    validate(properties.shape);
+    properties.box = bounds(properties.shape);
+    if (!properties.shape.normals.empty())
+        wind_by_normals(properties.shape);  // first: triangles of a grid are counter-clockwise
+    properties.grid = regular_grid_of(properties.shape, mesh_properties::grid_error);
+    if (!properties.grid && order_by_lattice(properties.shape))
+        properties.grid = regular_grid_of(properties.shape, mesh_properties::grid_error);
+    else if (!properties.grid && is_incoherent(properties.shape))
+        order_along_curve(properties.shape, properties.box);
+    if (properties.shape.normals.empty()) properties.shape.normals = smooth_normals(properties.shape);
+    properties.kind = kind_of(properties.shape);
     // Without a grid or a box-shaped outline, renderers would have to search for the surface below a position.
-    if (facts.kind == surface_kind::heightfield && !facts.grid && !fills_box(facts.shape, facts.box))
-        facts.kind = surface_kind::open;
-    if (facts.kind != surface_kind::heightfield) facts.grid.reset();
+    if (properties.kind == surface_kind::heightfield && !properties.grid &&
+        !fills_box(properties.shape, properties.box))
+        properties.kind = surface_kind::open;
+    if (properties.kind != surface_kind::heightfield) properties.grid.reset();
     return made;
 }
 
-INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> primitive_facts_of(mesh m) {
-    const auto made = std::make_shared<mesh_facts>();
+INSONIFY_FUNCTION std::shared_ptr<const mesh_properties> primitive_properties_of(mesh m) {
+    const auto made = std::make_shared<mesh_properties>();
     made->box = bounds(m);
     made->shape = std::move(m);
     made->kind = surface_kind::closed;
@@ -113,9 +115,9 @@ concept has_mesh = requires(const Shape& shape) {
 class shared_mesh {
   public:
     /// No triangles.
-    shared_mesh() : facts_(std::make_shared<detail::mesh_facts>()) {}
+    shared_mesh() : properties_(std::make_shared<detail::mesh_properties>()) {}
     /// @throws invalid_input for indices or normals that don't match the positions
-    INSONIFY_MEMBER shared_mesh(mesh m) : facts_(detail::facts_of(std::move(m))) {}
+    INSONIFY_MEMBER shared_mesh(mesh m) : properties_(detail::mesh_properties_of(std::move(m))) {}
     /// The mesh of a shape with a `to_mesh`. Primitives skip the analysis, because their type tells its results; a
     /// program that has no other shapes does not compile it.
     template <class Shape>
@@ -124,7 +126,7 @@ class shared_mesh {
                       "a target's shape is a mesh, a shared_mesh, or of a type with a function to_mesh(const T&) in "
                       "its namespace that returns one of them");
         if constexpr (detail::is_primitive<Shape>)
-            return shared_mesh(detail::primitive_facts_of(to_mesh(shape)));
+            return shared_mesh(detail::primitive_properties_of(to_mesh(shape)));
         else if constexpr (detail::has_mesh<Shape>)
             return shared_mesh(to_mesh(shape));
         else
@@ -133,23 +135,24 @@ class shared_mesh {
     /// The same as the constructor.
     INSONIFY_MEMBER static shared_mesh of(mesh m) { return shared_mesh(std::move(m)); }
 
-    const mesh& operator*() const { return facts_->shape; }
-    const mesh* operator->() const { return &facts_->shape; }
-    operator mesh_view() const { return facts_->shape; }
+    const mesh& operator*() const { return properties_->shape; }
+    const mesh* operator->() const { return &properties_->shape; }
+    operator mesh_view() const { return properties_->shape; }
 
     /// Around all finite positions, in the mesh's own frame.
-    const bounding_box& box() const { return facts_->box; }
+    const bounding_box& box() const { return properties_->box; }
     /// Heightfields whose outline is neither their grid's nor that of the box count as open.
-    surface_kind kind() const { return facts_->kind; }
+    surface_kind kind() const { return properties_->kind; }
     /// The grid of a heightfield whose vertices lie on one, within `grid_error` steps; null otherwise. Turn a mesh by
     /// its pose: turned vertices are rounded, which leaves the outline concave, and then there is no grid.
-    const regular_grid* grid() const { return facts_->grid ? &*facts_->grid : nullptr; }
-    static constexpr double grid_error = detail::mesh_facts::grid_error;
+    const regular_grid* grid() const { return properties_->grid ? &*properties_->grid : nullptr; }
+    static constexpr double grid_error = detail::mesh_properties::grid_error;
 
   private:
-    INSONIFY_MEMBER explicit shared_mesh(std::shared_ptr<const detail::mesh_facts> facts) : facts_(std::move(facts)) {}
+    INSONIFY_MEMBER explicit shared_mesh(std::shared_ptr<const detail::mesh_properties> properties)
+        : properties_(std::move(properties)) {}
 
-    std::shared_ptr<const detail::mesh_facts> facts_;
+    std::shared_ptr<const detail::mesh_properties> properties_;
 };
 
 }  // namespace INSONIFY_ABI

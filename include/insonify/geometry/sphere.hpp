@@ -38,10 +38,10 @@ float longest_semi_axis(const Round& shape) {
 }
 
 #if INSONIFY_BODIES
-/// Turns an outline about z and stretches the result with its normals.
-inline mesh stretched_round(const dynamic_array<outline_point>& outline, const char* name, const glm::vec3& aspect,
+/// Turns an profile about z and stretches the result with its normals.
+inline mesh stretched_round(const dynamic_array<profile_point>& profile, const char* name, const glm::vec3& aspect,
                             int segments) {
-    mesh out = revolve(outline, segments);
+    mesh out = revolve(profile, segments);
     if (aspect == glm::vec3(1)) return out;
     affine stretch;
     for (int i = 0; i < 3; ++i) {
@@ -67,18 +67,18 @@ INSONIFY_FUNCTION mesh to_mesh(const hemisphere& shape);
 INSONIFY_FUNCTION mesh to_mesh(const sphere& shape) {
     detail::require_positive("sphere.radius", shape.radius);
     detail::require_round_segments("sphere.segments", shape.segments);
-    detail::dynamic_array<outline_point> outline;
-    detail::append_arc(outline, static_cast<double>(shape.radius), 0.0, 0.0, 0.5, (shape.segments + 1) / 2);
-    return detail::stretched_round(outline, "sphere.aspect", shape.aspect, shape.segments);
+    detail::dynamic_array<profile_point> profile;
+    detail::append_arc(profile, static_cast<double>(shape.radius), 0.0, 0.0, 0.5, (shape.segments + 1) / 2);
+    return detail::stretched_round(profile, "sphere.aspect", shape.aspect, shape.segments);
 }
 
 INSONIFY_FUNCTION mesh to_mesh(const hemisphere& shape) {
     detail::require_positive("hemisphere.radius", shape.radius);
     detail::require_round_segments("hemisphere.segments", shape.segments);
     const auto radius = static_cast<double>(shape.radius);
-    detail::dynamic_array<outline_point> outline = {{0, 0, 0, -1}, {radius, 0, 0, -1}};
-    detail::append_arc(outline, radius, 0.0, 0.25, 0.5, (shape.segments + 3) / 4);
-    return detail::stretched_round(outline, "hemisphere.aspect", shape.aspect, shape.segments);
+    detail::dynamic_array<profile_point> profile = {{0, 0, 0, -1}, {radius, 0, 0, -1}};
+    detail::append_arc(profile, radius, 0.0, 0.25, 0.5, (shape.segments + 3) / 4);
+    return detail::stretched_round(profile, "hemisphere.aspect", shape.aspect, shape.segments);
 }
 #endif
 

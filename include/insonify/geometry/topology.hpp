@@ -23,18 +23,18 @@ inline namespace INSONIFY_FLAGS {
 
 /// Topology of a mesh, with coincident vertices merged (sharp edges split vertices for their normals).
 struct topology {
-    std::size_t vertices = 0;        ///< distinct positions that triangles use
-    std::size_t edges = 0;           ///< pairs of vertices that triangles join
-    std::size_t triangles = 0;       ///< without the degenerate ones
-    std::size_t degenerate = 0;      ///< triangles with two coincident corners, not counted elsewhere
-    std::size_t boundary_edges = 0;  ///< edges with one triangle
-    std::size_t tangled_edges = 0;   ///< edges with more than two triangles, or two that traverse it the same way
-    std::size_t inward_pieces = 0;   ///< pieces, connected by vertices, that face inwards or enclose nothing
+    std::size_t vertices = 0;            ///< distinct positions that triangles use
+    std::size_t edges = 0;               ///< pairs of vertices that triangles join
+    std::size_t triangles = 0;           ///< without the degenerate ones
+    std::size_t degenerate = 0;          ///< triangles with two coincident corners, not counted elsewhere
+    std::size_t boundary_edges = 0;      ///< edges with one triangle
+    std::size_t non_manifold_edges = 0;  ///< edges with more than two triangles, or two that traverse it the same way
+    std::size_t inward_components = 0;   ///< pieces, connected by vertices, that face inwards or enclose nothing
 
     /// Every edge joins two triangles of the same orientation.
-    bool closed() const { return triangles > 0 && boundary_edges == 0 && tangled_edges == 0; }
+    bool closed() const { return triangles > 0 && boundary_edges == 0 && non_manifold_edges == 0; }
     /// Closed, with all triangles facing outwards.
-    bool solid() const { return closed() && inward_pieces == 0; }
+    bool solid() const { return closed() && inward_components == 0; }
     /// V - E + F: 2 for a closed surface of one piece without handles.
     std::int64_t euler_characteristic() const {
         return static_cast<std::int64_t>(vertices + triangles) - static_cast<std::int64_t>(edges);
@@ -73,9 +73,9 @@ inline topology inspect(const mesh& m) {
     // An edge's key has its lower vertex first; the number is the triangle's direction along it.
     detail::dynamic_array<detail::keyed> sides;
     std::vector<bool> used(m.positions.size());
-    std::vector<std::uint32_t> joined = first;  // union-find: a vertex of the same piece; the root is its id
+    std::vector<std::uint32_t> parent = first;  // union-find: a vertex of the same piece; the root is its id
     const auto piece_of = [&](std::uint32_t vertex) {
-        while (joined[vertex] != vertex) vertex = joined[vertex] = joined[joined[vertex]];
+        while (parent[vertex] != vertex) vertex = parent[vertex] = parent[parent[vertex]];
         return vertex;
     };
     detail::dynamic_array<double> volume(m.positions.size());  // by piece, six times the enclosed volume
@@ -95,7 +95,7 @@ inline topology inspect(const mesh& m) {
             sides.push_back({std::uint64_t{(std::min)(a, b)} << 32 | (std::max)(a, b), a < b ? 1u : 0u});
             out.vertices += used[a] ? 0u : 1u;
             used[a] = true;
-            joined[piece_of(a)] = piece_of(b);
+            parent[piece_of(a)] = piece_of(b);
         }
     }
     detail::radix_sort(sides);
@@ -109,7 +109,7 @@ inline topology inspect(const mesh& m) {
                          numeric::cross(glm::dvec3(m.positions[t.y]) - from, glm::dvec3(m.positions[t.z]) - from));
     }
     for (std::uint32_t v = 0; v < volume.size(); ++v)
-        if (used[v] && joined[v] == v && !(volume[v] > 0)) ++out.inward_pieces;
+        if (used[v] && parent[v] == v && !(volume[v] > 0)) ++out.inward_components;
 
     for (std::size_t i = 0, end; i < sides.size(); i = end) {
         for (end = i + 1; end < sides.size() && sides[end].key == sides[i].key;) ++end;
@@ -117,7 +117,7 @@ inline topology inspect(const mesh& m) {
         if (end - i == 1)
             ++out.boundary_edges;
         else if (end - i > 2 || sides[i + 1].number == sides[i].number)
-            ++out.tangled_edges;
+            ++out.non_manifold_edges;
     }
     return out;
 }

@@ -41,16 +41,16 @@ class flat_polygon {
         v_ = (away + (area[away] < 0 ? 1 : 2)) % 3;
     }
 
-    /// Twice the area of the triangle, positive for a left turn at b.
-    double turn(std::size_t a, std::size_t b, std::size_t c) const {
+    /// Twice the area of the triangle, positive for a left orient2d at b.
+    double orient2d(std::size_t a, std::size_t b, std::size_t c) const {
         const glm::dvec2 p = at(a), q = at(b), r = at(c);
         return (q.x - p.x) * (r.y - q.y) - (q.y - p.y) * (r.x - q.x);
     }
     /// Whether a point lies inside or on the border of a triangle, and not at one of its corners.
     bool covered(std::size_t point, std::size_t a, std::size_t b, std::size_t c) const {
         const glm::dvec2 p = at(point);
-        return turn(a, b, point) >= 0 && turn(b, c, point) >= 0 && turn(c, a, point) >= 0 && p != at(a) && p != at(b) &&
-               p != at(c);
+        return orient2d(a, b, point) >= 0 && orient2d(b, c, point) >= 0 && orient2d(c, a, point) >= 0 && p != at(a) &&
+               p != at(b) && p != at(c);
     }
 
   private:
@@ -69,7 +69,7 @@ inline void clip_ears(const flat_polygon& polygon, std::uint32_t count, std::vec
     dynamic_array<corner> ring(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         ring[i] = {(i + count - 1) % count, (i + 1) % count, false, false};
-        ring[i].reflex = polygon.turn(ring[i].previous, i, ring[i].next) < 0;
+        ring[i].reflex = polygon.orient2d(ring[i].previous, i, ring[i].next) < 0;
     }
 
     // The diagonal of an ear lies inside the polygon, which is so if no reflex corner lies in the ear.
@@ -90,7 +90,7 @@ inline void clip_ears(const flat_polygon& polygon, std::uint32_t count, std::vec
         triangles.emplace_back(a, tip, b);
         ring[a].next = b;
         ring[b].previous = a;
-        for (const std::uint32_t i : {a, b}) ring[i].reflex = polygon.turn(ring[i].previous, i, ring[i].next) < 0;
+        for (const std::uint32_t i : {a, b}) ring[i].reflex = polygon.orient2d(ring[i].previous, i, ring[i].next) < 0;
         for (const std::uint32_t i : {a, b}) ring[i].ear = is_ear(i);
         tip = ring[b].next;  // every other ear first: fewer slivers
     }
@@ -104,7 +104,7 @@ inline bool append_triangles(std::span<const glm::vec3> corners, std::vector<glm
     if (count > 3) {
         const flat_polygon polygon(corners);
         for (std::uint32_t i = 0; i < count; ++i) {
-            if (!(polygon.turn(i, (i + 1) % count, (i + 2) % count) < 0)) continue;
+            if (!(polygon.orient2d(i, (i + 1) % count, (i + 2) % count) < 0)) continue;
             if (count > ear_clipping_limit) return false;
             clip_ears(polygon, count, triangles);
             return true;

@@ -40,7 +40,7 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& shader, image_view
     const pixel_grid grid{options.subpixel_bits, depth.width(), depth.height()};
     const tile_grid tiles(grid.width, grid.height, std::countr_zero(static_cast<unsigned>(options.tile)));
     const screen_mesh<real> screen(m, shader, grid, tiles, options, HasIds, records, ex);
-    const float sign = options.keep == keep_depth::smaller ? 1.0f : -1.0f;
+    const float sign = options.compare == depth_compare::less ? 1.0f : -1.0f;
 
     const std::size_t grain = tiles.grain();
     dynamic_array<std::uint64_t> shaded((tiles.count() + grain - 1) / grain, 0);
@@ -81,7 +81,7 @@ inline namespace INSONIFY_FLAGS {
 /// @returns the number of triangles by outcome, and of shaded pixels; zeros for an empty target, for which nothing is
 /// done
 /// @throws invalid_input for an index without a position, a number of normals that is neither 0 nor that of positions,
-///         or options out of range; the target is then untouched
+///         or options out of range; the target is then unchanged
 template <vertex_shader VertexShader, depth_precision Depth = depth_precision::exact,
           executor_argument E = serial_executor>
 draw_stats draw(const mesh_view& m, const VertexShader& shader, const depth_target& target,
@@ -148,7 +148,7 @@ template <class VertexShader, class Shader, class Pixel, class... Others>
 draw_stats draw(const mesh_view&, const VertexShader&, const Shader&, const framebuffer<Pixel>&, Others&&...) {
     static_assert(
         vertex_shader<VertexShader>,
-        "a vertex shader takes a const vertex& and returns a glm::vec4, or a placed_vertex whose varyings can "
+        "a vertex shader takes a const vertex& and returns a glm::vec4, or a vertex_output whose varyings can "
         "be interpolated: see raster/shader.hpp");
     static_assert(!vertex_shader<VertexShader>,
                   "a fragment shader takes a const fragment<Varyings>&, of the vertex shader's varyings, and returns a "

@@ -12,10 +12,10 @@ inline namespace INSONIFY_ABI {
 /// The side of a triangle that is not drawn. A triangle's front is where its vertices run counter-clockwise.
 enum class cull_mode { none, back, front };
 
-/// The depth test: which of two surfaces a pixel shows.
-enum class keep_depth {
-    smaller,  ///< z = 0 at the near plane, growing away from the camera
-    larger,   ///< reversed z, or heights seen from above
+/// The depth test: a surface replaces the pixel's if its depth is less, or greater, than the stored one.
+enum class depth_compare {
+    less,     ///< z = 0 at the near plane, growing away from the camera
+    greater,  ///< reversed z, or heights seen from above
 };
 
 /// Contents of the target before a draw.
@@ -27,9 +27,9 @@ enum class depth_load {
 inline namespace INSONIFY_FLAGS {
 
 /// Depth of a pixel without a visible triangle.
-constexpr float empty_depth(keep_depth keep) {
-    return keep == keep_depth::smaller ? std::numeric_limits<float>::infinity()
-                                       : -std::numeric_limits<float>::infinity();
+constexpr float empty_depth(depth_compare compare) {
+    return compare == depth_compare::less ? std::numeric_limits<float>::infinity()
+                                          : -std::numeric_limits<float>::infinity();
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -47,8 +47,8 @@ enum class depth_precision {
 template <depth_precision Depth = depth_precision::exact>
 struct draw_options {
     cull_mode cull = cull_mode::none;
-    keep_depth keep = keep_depth::smaller;
-    depth_load load = depth_load::keep;  ///< a new image is full of 0, the nearest depth of `smaller`: clear it
+    depth_compare compare = depth_compare::less;
+    depth_load load = depth_load::keep;  ///< a new image is full of 0, the nearest depth under `less`: clear it
     int subpixel_bits = 8;               ///< 4 to 16: vertices are rounded to 2^-bits pixels
     int tile = 64;                       ///< pixels, a power of two from 8 to 256
     isa level = best_isa();              ///< the widest instruction set to use

@@ -33,7 +33,7 @@ struct vertex {
 
 /// Output of a vertex shader that has varyings. The view volume is -w <= x <= w, -w <= y <= w (y up), 0 <= z <= w.
 template <class Varyings>
-struct placed_vertex {
+struct vertex_output {
     glm::vec4 clip;
     Varyings varyings;  ///< interpolated between the vertices for fragment shaders
 };
@@ -43,7 +43,7 @@ template <class S>
 concept position_shader = requires(const S& shader, const vertex& v) {
     { shader(v) } -> std::convertible_to<glm::vec4>;
 };
-/// `shader(vertex)` returns a placed_vertex, or a type of the caller's with the same members.
+/// `shader(vertex)` returns a vertex_output, or a type of the caller's with the same members.
 template <class S>
 concept varying_shader = requires(const S& shader, const vertex& v) {
     { shader(v).clip } -> std::convertible_to<glm::vec4>;

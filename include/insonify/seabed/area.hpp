@@ -76,8 +76,8 @@ inline double distance_to_path(const glm::dvec2& p, const std::vector<glm::dvec2
 
 /// Signed distance of a position from the border of an area, metres, positive inside.
 inline double signed_distance(const disc& d, const glm::dvec2& p) {
-    const glm::dvec2 off = p - d.centre;
-    return static_cast<double>(d.radius) - numeric::square_root(off.x * off.x + off.y * off.y);
+    const glm::dvec2 offset = p - d.centre;
+    return static_cast<double>(d.radius) - numeric::square_root(offset.x * offset.x + offset.y * offset.y);
 }
 inline double signed_distance(const band& b, const glm::dvec2& p) {
     return 0.5 * static_cast<double>(b.width) - distance_to_path(p, b.path);

@@ -20,7 +20,7 @@ class detailed_sampler;
 /// A heightfield with cubic interpolation between its vertices, plus roughness.
 ///
 /// To continue the survey's spectrum, set the roughness's longest cell to the survey's spacing: a sediment's relief of
-/// wavelengths below L metres has an rms of facts_of(sediment).rms() L^0.625.
+/// wavelengths below L metres has an rms of parameters_of(sediment).rms() L^0.625.
 struct detailed {
     heightfield field{};
     roughness surface{.rms = 0.01f, .longest = 1, .shortest = 0.06f};

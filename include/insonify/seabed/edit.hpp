@@ -147,10 +147,10 @@ inline float height_after(const flatten& e, const glm::dvec2& p, float height) {
     return lerp(height, e.level, plateau(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius));
 }
 inline float height_after(const ramp& e, const glm::dvec2& p, float height) {
-    const glm::dvec2 way = e.to - e.from, off = p - e.from;
+    const glm::dvec2 way = e.to - e.from, offset = p - e.from;
     const double square = way.x * way.x + way.y * way.y, span = numeric::square_root(square);
-    const double t = (way.x * off.x + way.y * off.y) / square;
-    const double side = (way.x * off.y - way.y * off.x) / span;
+    const double t = (way.x * offset.x + way.y * offset.y) / square;
+    const double side = (way.x * offset.y - way.y * offset.x) / span;
     // Beyond its ends the ramp is level and fades within a quarter of its width.
     const double past = (t < 0 ? -t : t > 1 ? t - 1 : 0.0) * span;
     const float weight = plateau(static_cast<float>(2 * numeric::abs(side)) / e.width) *
@@ -159,14 +159,14 @@ inline float height_after(const ramp& e, const glm::dvec2& p, float height) {
 }
 inline float height_after(const stamp& e, const glm::dvec2& p, float height) {
     if (e.every <= 0) return height + e.height * biweight(static_cast<float>(distance_to_path(p, e.path)) / e.radius);
-    // The mark next to the nearest place on each leg of the path, counted along it.
+    // On each segment of the path, the mark nearest to the point, by arc length.
     const double every = static_cast<double>(e.every);
     double before = 0, nearest = square_distance(p, e.path[0], e.path[0]);
     for (std::size_t i = 1; i < e.path.size(); ++i) {
-        const glm::dvec2 &a = e.path[i - 1], way = e.path[i] - a, off = p - a;
+        const glm::dvec2 &a = e.path[i - 1], way = e.path[i] - a, offset = p - a;
         const double square = way.x * way.x + way.y * way.y, span = numeric::square_root(square);
         if (span == 0) continue;
-        const double along = before + (way.x * off.x + way.y * off.y) / span;
+        const double along = before + (way.x * offset.x + way.y * offset.y) / span;
         const double last = static_cast<double>(numeric::floor_to_int((before + span) / every)) * every;
         const double first = -static_cast<double>(numeric::floor_to_int(-before / every)) * every;
         const double mark = static_cast<double>(numeric::floor_to_int(along / every + 0.5)) * every;

@@ -76,7 +76,7 @@ struct heightfield {
     double spacing = 1;           ///< metres between vertices, > 0 and < 10^6
     type fallback = type::sand;
     /// Properties of users' labels; those of the library are in its registry.
-    std::vector<type_properties> own_types{};
+    std::vector<type_properties> user_types{};
 
     /// Height of the drawn surface at a world position, metres. @pre the heightfield is valid, here and below
     INSONIFY_MEMBER float height_at(double x, double y) const { return static_cast<float>(facet_at(x, y).height); }
@@ -158,8 +158,8 @@ inline std::vector<type_properties> heightfield::legend() const {
     std::array<bool, 256> occurs{};
     if (types.empty()) occurs[index_of(fallback)] = true;
     for (const type t : types.pixels()) occurs[index_of(t)] = true;
-    std::vector<type_properties> all = own_types;
-    for (const type_properties& own : own_types) occurs[index_of(own.label)] = false;
+    std::vector<type_properties> all = user_types;
+    for (const type_properties& own : user_types) occurs[index_of(own.label)] = false;
     for (std::size_t i = 0; i < label_count; ++i)
         if (occurs[i]) all.push_back(properties_of(static_cast<type>(i)));
     return all;

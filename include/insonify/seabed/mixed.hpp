@@ -69,15 +69,15 @@ class border {
     };
     /// The upper surface at progress `t`; at 0 exactly the ground, at 1 exactly the layer.
     composite at(float t, float below, float layer) const {
-        const float rise = layer - below;
+        const float height_difference = layer - below;
         if (t <= 0) return {below, false};
         if (t >= 1) return {layer, true};
         // Relief beyond the expected range fades.
         if (t < 0.5f) {
-            const float over = rise - relief_ * (1 - 2 * t);
+            const float over = height_difference - relief_ * (1 - 2 * t);
             return {over > 0 ? below + over * saturate(4 * t) : below, over > 0};
         }
-        const float over = -rise - relief_ * (2 * t - 1);
+        const float over = -height_difference - relief_ * (2 * t - 1);
         return {over > 0 ? layer + over * saturate(4 - 4 * t) : layer, !(over > 0)};
     }
 

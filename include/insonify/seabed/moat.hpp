@@ -49,8 +49,8 @@ inline double moat_reach(const moat& m) {
     // The tail is as wide as the outline, whose corners may all lie to one side of it.
     double square = 0;
     for (const glm::dvec2& p : m.outline) {
-        const glm::dvec2 off = p - m.outline.front();
-        square = (std::max)(square, off.x * off.x + off.y * off.y);
+        const glm::dvec2 offset = p - m.outline.front();
+        square = (std::max)(square, offset.x * offset.x + offset.y * offset.y);
     }
     return numeric::square_root(square) + static_cast<double>(m.width) + static_cast<double>(m.tail);
 }
@@ -61,20 +61,20 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
     // Along the current and across it, of the outline and of the position, from the outline's mean corner.
     glm::dvec2 centre(0, 0);
     for (const glm::dvec2& c : m.outline) centre += c / static_cast<double>(m.outline.size());
-    const auto turned = [&](const glm::dvec2& q) {
-        const glm::dvec2 off = q - centre;
-        return glm::dvec2(off.x * flow.cosine + off.y * flow.sine, off.y * flow.cosine - off.x * flow.sine);
+    const auto to_current_frame = [&](const glm::dvec2& q) {
+        const glm::dvec2 offset = q - centre;
+        return glm::dvec2(offset.x * flow.cosine + offset.y * flow.sine, offset.y * flow.cosine - offset.x * flow.sine);
     };
     double lee_end = 0, left = 0, right = 0;
     for (const glm::dvec2& c : m.outline) {
-        const glm::dvec2 q = turned(c);
+        const glm::dvec2 q = to_current_frame(c);
         lee_end = (std::max)(lee_end, q.x);
         left = (std::min)(left, q.y);
         right = (std::max)(right, q.y);
     }
 
     const double width = static_cast<double>(m.width), outside = -signed_distance(m.outline, p);
-    const glm::dvec2 at = turned(p);
+    const glm::dvec2 at = to_current_frame(p);
     const double away = numeric::square_root(at.x * at.x + at.y * at.y);
     const double facing = away > 0 ? 0.75 - 0.25 * at.x / away : 0.75;
     double change =

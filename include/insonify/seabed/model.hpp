@@ -3,7 +3,7 @@
 // A model is a copyable value of two or three members, of the library or of a user:
 //
 //     struct dunes {
-//         static constexpr in::seabed::type_properties kind{in::seabed::own_type(0), "dunes", 0.6f, {.texture = 8}};
+//         static constexpr in::seabed::type_properties kind{in::seabed::user_type(0), "dunes", 0.6f, {.texture = 8}};
 //         void row(const in::seabed::scanline& line, std::span<float> heights) const;  // metres above the datum
 //         in::seabed::height_range range() const { return {-1, 1}; }                   // which it never leaves
 //     };
@@ -46,7 +46,7 @@ struct scanline {
     double spacing = 1;      ///< >= 0
     std::int64_t first = 0;  ///< index in the whole row of sample 0 here; may be negative
     /// Metres between the vertices of the grid that the row belongs to: relief that the grid can't carry fades out (see
-    /// `carried`). 0: no relief fades.
+    /// `band_limit_gain`). 0: no relief fades.
     double grid_spacing = 0;
 
     INSONIFY_MEMBER double x(std::size_t i) const { return origin + spacing * static_cast<double>(number(i)); }
@@ -63,7 +63,7 @@ inline namespace INSONIFY_FLAGS {
 ///
 /// Alan Norton, Alyn P. Rockwood, Philip T. Skolmoski. Clamping: A Method of Antialiasing Textured Surfaces by
 /// Bandwidth Limiting in Object Space. SIGGRAPH, 1982.
-constexpr float carried(double wavelength, double spacing) {
+constexpr float band_limit_gain(double wavelength, double spacing) {
     if (wavelength >= 4 * spacing) return 1;
     return wavelength <= 2 * spacing ? 0.0f : static_cast<float>(2 - 4 * spacing / wavelength);
 }
@@ -306,8 +306,8 @@ inline void extend(std::vector<type_properties>& legend, const std::vector<type_
     }
 }
 
-/// How deep a layer has to sink to disappear below another, metres: about as far as its surface strays from its mean
-/// level. A model's `sink_depth()`, or half of its range.
+/// How far a layer must be lowered to vanish below another, metres: about the largest deviation of its surface from its
+/// mean level. A model's `sink_depth()`, or half of its range.
 template <model M>
 float sink_depth_of(const M& m) {
     if constexpr (requires { m.sink_depth(); }) {

@@ -24,7 +24,7 @@ struct mud {
     float size = 0.35f;          ///< metres, from 0.001: radius of the largest; the smallest have 0.4 of it
     float mound_height = 0.04f;  ///< metres, >= 0: of the largest mounds
     float pock_depth = 0.04f;    ///< metres, >= 0: of the largest pock marks
-    float pock_share = 0.4f;     ///< in [0, 1]: fraction of them that are pock marks
+    float pock_fraction = 0.4f;  ///< in [0, 1]: fraction of them that are pock marks
     trawl_marks trawls{};        ///< none unless they have a density
     std::uint64_t seed = 1;
     type kind = type::mud;
@@ -50,9 +50,9 @@ class mud_sampler {
                         "0 to 1 / (4 size)^2 per square metre");
         detail::require_metres("mud.mound_height", m.mound_height);
         detail::require_metres("mud.pock_depth", m.pock_depth);
-        detail::require_fraction("mud.pock_share", m.pock_share);
+        detail::require_fraction("mud.pock_fraction", m.pock_fraction);
         const float filled = m.density * cell * cell;
-        marks_ = {static_cast<double>(cell),       filled, filled * (1 - m.pock_share), m.mound_height, m.pock_depth,
+        marks_ = {static_cast<double>(cell),       filled, filled * (1 - m.pock_fraction), m.mound_height, m.pock_depth,
                   {m.seed, detail::stream::mounds}};
     }
 

@@ -7,7 +7,7 @@
 #include <insonify/core/executor.hpp>
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/lanes.hpp>
-#include <insonify/seabed/detail/rise.hpp>
+#include <insonify/seabed/detail/central_difference.hpp>
 #include <insonify/seabed/heightfield.hpp>
 
 #include <glm/vec3.hpp>
@@ -74,8 +74,8 @@ class row_normals {
   private:
     void compute_one(std::size_t i) const {
         const std::size_t left = i > 0 ? i - 1 : i, right = i + 1 < width_ ? i + 1 : i;
-        const float dx = rise(here_[left], here_[i], here_[right], right - left == 2);
-        const float dy = rise(back_[i], here_[i], ahead_[i], inner_);
+        const float dx = central_difference(here_[left], here_[i], here_[right], right - left == 2);
+        const float dy = central_difference(back_[i], here_[i], ahead_[i], inner_);
         const float inverse = 1 / numeric::square_root(dx * dx + dy * dy + z_ * z_);
         out_[i] = {(0.0f - dx) * inverse, (0.0f - dy) * inverse, z_ * inverse};
     }

@@ -3,7 +3,7 @@
 // A label is one byte, stored in data sets. To add a type of relief, write its model in a file of its own and a row at
 // the end of INSONIFY_RELIEF_TYPES; to add a sediment, write a row at the end of INSONIFY_SEDIMENTS. The enumerations,
 // names in manifests, defaults of scenes and defaults of speckle are made from the rows. Labels number the rows in
-// order, so a new type of relief renumbers the sediments: manifests name the labels of their data set. `own_type(0)`
+// order, so a new type of relief renumbers the sediments: manifests name the labels of their data set. `user_type(0)`
 // and above are free for users' seabeds, which state their properties (see model.hpp).
 #pragma once
 
@@ -64,23 +64,23 @@ namespace seabed {
 
 #define INSONIFY_LABEL(label, ...) label,
 
-/// Label of the bottom: a type of relief, a sediment, or a user's (see `own_type`).
+/// Label of the bottom: a type of relief, a sediment, or a user's (see `user_type`).
 enum class type : std::uint8_t { INSONIFY_RELIEF_TYPES(INSONIFY_LABEL) INSONIFY_SEDIMENTS(INSONIFY_LABEL) };
 
 #undef INSONIFY_LABEL
 
-inline constexpr std::size_t first_own_label = 64;  ///< lower labels are reserved for the library
-inline constexpr std::size_t label_count = 256;     ///< in images of labels the last means no seabed
+inline constexpr std::size_t first_user_label = 64;  ///< lower labels are reserved for the library
+inline constexpr std::size_t label_count = 256;      ///< in images of labels the last means no seabed
 
 inline namespace INSONIFY_FLAGS {
 
 /// A label for a user's seabed, which the library never uses.
 /// @param number  0 to 190
 /// @throws invalid_input for a number out of its range
-constexpr type own_type(int number) {
-    const auto limit = static_cast<int>(label_count - 1 - first_own_label);
-    if (number < 0 || number >= limit) insonify::detail::refuse("own_type number", number, "0 to 190");
-    return static_cast<type>(static_cast<int>(first_own_label) + number);
+constexpr type user_type(int number) {
+    const auto limit = static_cast<int>(label_count - 1 - first_user_label);
+    if (number < 0 || number >= limit) insonify::detail::refuse("user_type number", number, "0 to 190");
+    return static_cast<type>(static_cast<int>(first_user_label) + number);
 }
 
 /// Index of a label in tables with one entry per label.
@@ -120,7 +120,7 @@ struct sediment_form {
 };
 
 /// The acoustic and geometric parameters of a sediment.
-struct sediment_facts {
+struct sediment_parameters {
     type label;
     std::string_view name;
     float phi;                ///< mean grain size, -log2 of millimetres
@@ -148,7 +148,7 @@ enum class sediment : std::uint8_t { INSONIFY_SEDIMENTS(INSONIFY_SEDIMENT) };
 /// The rows of types of relief.
 inline constexpr type_properties relief_types[] = {INSONIFY_RELIEF_TYPES(INSONIFY_PROPERTIES)};
 /// The rows of sediments.
-inline constexpr sediment_facts sediments[] = {INSONIFY_SEDIMENTS(INSONIFY_PROPERTIES)};
+inline constexpr sediment_parameters sediments[] = {INSONIFY_SEDIMENTS(INSONIFY_PROPERTIES)};
 
 #undef INSONIFY_SEDIMENT
 #undef INSONIFY_PROPERTIES
@@ -164,7 +164,7 @@ constexpr type type_of(sediment s) {
 
 /// The row of a sediment.
 /// @throws invalid_input for a value that is no enumerator
-constexpr const sediment_facts& facts_of(sediment s) {
+constexpr const sediment_parameters& parameters_of(sediment s) {
     const std::size_t row = static_cast<std::size_t>(s) - std::size(relief_types);
     if (row >= std::size(sediments))
         insonify::detail::refuse("sediment", static_cast<int>(s), "an enumerator of seabed::sediment");
@@ -175,7 +175,7 @@ constexpr const sediment_facts& facts_of(sediment s) {
 
 /// Labels of the library.
 inline constexpr std::size_t type_count = std::size(relief_types) + std::size(sediments);
-static_assert(type_count <= first_own_label);
+static_assert(type_count <= first_user_label);
 
 namespace detail::inline INSONIFY_FLAGS {
 
@@ -184,8 +184,8 @@ constexpr std::array<type_properties, type_count> registered_types() {
     std::size_t count = 0;
     for (const type_properties& t : relief_types) rows[count++] = t;
     // Sediments relative to sand, which is as bright as medium sand.
-    const float sand = relief_types[0].reflectivity / facts_of(sediment::medium_sand).strength_at_nadir();
-    for (const sediment_facts& s : sediments)
+    const float sand = relief_types[0].reflectivity / parameters_of(sediment::medium_sand).strength_at_nadir();
+    for (const sediment_parameters& s : sediments)
         rows[count++] = {s.label, s.name, sand * s.strength_at_nadir(), {1, s.texture, s.steady}};
     return rows;
 }

@@ -102,7 +102,7 @@ class rock_sampler {
         detail::stretch_values weights{}, tops;
         float amplitude = 1;
         for (const detail::gradient_noise& octave : outcrops_) {
-            octave.template add<N>(part, amplitude * octave.carried_by(part), weights.data());
+            octave.template add<N>(part, amplitude * octave.band_gain_on(part), weights.data());
             amplitude *= 0.5f;
         }
         for (std::size_t i = 0; i < part.whole(); i += N) {
@@ -119,8 +119,8 @@ class rock_sampler {
             store(&weights[i], step);
         }
         for (const detail::block_layer& layer : blocks_) {
-            const float kept = layer.carried_by(part);
-            if (kept == 0) break;  // smaller blocks are not carried either
+            const float band_gain = layer.band_gain_on(part);
+            if (band_gain == 0) break;  // smaller blocks are not resolved either
             tops.fill(0);
             layer.template raise<N>(part, tops.data());
             for (std::size_t i = 0; i < part.whole(); i += N) {
@@ -128,7 +128,7 @@ class rock_sampler {
                 load(top, &tops[i]);
                 load(weight, &weights[i]);
                 load(height, heights + i);
-                height = height + kept * (weight * top);
+                height = height + band_gain * (weight * top);
                 store(heights + i, height);
             }
         }

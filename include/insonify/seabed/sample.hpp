@@ -77,7 +77,7 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
                        .spacing = where.spacing};
     const std::vector<type_properties> legend = legend_of(source);
     for (const type_properties& t : legend)
-        if (index_of(t.label) >= type_count) result.own_types.push_back(t);
+        if (index_of(t.label) >= type_count) result.user_types.push_back(t);
     if (const std::optional<type> only = only_type(source))
         result.fallback = *only;
     else

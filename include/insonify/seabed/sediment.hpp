@@ -24,9 +24,9 @@ inline namespace INSONIFY_FLAGS {
 /// A sediment by its name in the table.
 /// @throws invalid_input for a name that isn't there
 inline sediment sediment_of(std::string_view name) {
-    for (const sediment_facts& s : sediments)
+    for (const sediment_parameters& s : sediments)
         if (s.name == name) return static_cast<sediment>(s.label);
-    insonify::detail::raise(
+    insonify::detail::throw_error(
         invalid_input("sediment \"" + std::string(name) + "\" is unknown, expected a name of seabed::sediments"));
 }
 
@@ -35,15 +35,15 @@ inline sediment sediment_of(std::string_view name) {
 /// @throws invalid_input for a grain size that isn't finite
 inline sediment sediment_of_phi(float phi) {
     detail::require(numeric::is_finite(phi), "phi", phi, "a finite grain size");
-    const sediment_facts* best = sediments;
-    for (const sediment_facts& s : sediments)
+    const sediment_parameters* best = sediments;
+    for (const sediment_parameters& s : sediments)
         if (numeric::abs(s.phi - phi) < numeric::abs(best->phi - phi)) best = &s;
     return static_cast<sediment>(best->label);
 }
 
 /// The power-law roughness of a sediment: relief that is four times as long as a metre is 4^0.625 times as high.
 inline roughness roughness_of(sediment s) {
-    return {.rms = 2.3784f * facts_of(s).rms(), .longest = 4, .shortest = 0.06f};
+    return {.rms = 2.3784f * parameters_of(s).rms(), .longest = 4, .shortest = 0.06f};
 }
 
 /// The seabed that a sediment makes, with its label: outcrops and boulders of rock, cobbles, level sand, soft mud. A
@@ -51,7 +51,7 @@ inline roughness roughness_of(sediment s) {
 template <std::same_as<sediment> Sediment>
 any bottom_of(Sediment s, std::uint64_t seed = 1) {
     const roughness surface = roughness_of(s);
-    const sediment_form& form = facts_of(s).form;
+    const sediment_form& form = parameters_of(s).form;
     const type kind = type_of(s);
     if (form.kind == sediment_form::soft) return mud{.surface = surface, .seed = seed, .kind = kind};
     if (form.kind == sediment_form::level) return flat{.surface = surface, .seed = seed, .kind = kind};

@@ -54,9 +54,9 @@ class exact_occlusion {
     void screen(const points& at, const results& into) const {
         std::fill(into.caster.begin(), into.caster.end(), invalid_id);
         if (planes_.empty()) return std::fill(into.lit.begin(), into.lit.end(), 1.0f);
-        if (planes_.are_near()) return std::fill(into.lit.begin(), into.lit.end(), unknown);
+        if (planes_.has_point_light()) return std::fill(into.lit.begin(), into.lit.end(), unknown);
         for (std::size_t first = 0, last = 0; first < at.size(); first = last) {
-            const std::size_t end = (std::min)(first + screened_together, at.size());
+            const std::size_t end = (std::min)(first + pretested_together, at.size());
             for (last = first + 1; last < end && at.mesh[last] == at.mesh[first];) ++last;
             screen(at, first, last, into);
         }
@@ -71,22 +71,23 @@ class exact_occlusion {
         const shadow::caster& c = casters_[caster];
         const detail::lit_grid& grid = grids_[caster]->grid();
         const detail::horizon_triangles triangles = grids_[caster]->triangles(eye);
-        insonify::detail::uninitialized_array<decision> answers(c.mesh.triangles.size(),
-                                                                insonify::detail::memory_of(ex));
+        insonify::detail::uninitialized_array<decision> decisions(c.mesh.triangles.size(),
+                                                                  insonify::detail::memory_of(ex));
         // Triangles that other casters may shade are left to the test of points.
         detail::dynamic_array<std::pair<glm::dvec2, glm::dvec2>> shared;
         const detail::tiled_plane& plane = planes_.front();
-        const detail::ray_feet feet(plane.plane, c.placement, grid);
+        const detail::datum_intercepts intercepts(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
-            if (plane.occupants.only(tile) == caster || plane.occupants.of(tile).empty()) continue;
-            shared.push_back(feet.of(plane.tiles.lower + plane.tiles.corner(tile), plane.tiles.tile()));
+            if (plane.casters_of_tiles.only(tile) == caster || plane.casters_of_tiles.of(tile).empty()) continue;
+            shared.push_back(intercepts.of(plane.tiles.lower + plane.tiles.corner(tile), plane.tiles.tile()));
         }
         bulk_ranges(ex, static_cast<std::size_t>(grid.columns - 1), 32, [&](std::size_t first, std::size_t last) {
             const auto left = static_cast<int>(first), right = static_cast<int>(last);
-            triangles.find(left, right, answers.data(), level_);
-            for (const auto& [lower, upper] : shared) triangles.forget(lower, upper, left, right, answers.data());
+            triangles.classify(left, right, decisions.data(), level_);
+            for (const auto& [lower, upper] : shared)
+                triangles.reset_to_undecided(lower, upper, left, right, decisions.data());
         });
-        return answers;
+        return decisions;
     }
 
     /// See occlusion.
@@ -128,28 +129,27 @@ class exact_occlusion {
     /// Whether a caster is a grid lit from above its own plane: then horizon bounds replace its list of triangles.
     /// Checked for each sample of a wide light, since some may lie below that plane.
     static bool has_horizon(const caster& c, const light_frame& frame) {
-        return c.grid != nullptr && c.may_skip == skip::facing_its_own &&
+        return c.grid != nullptr && c.may_skip == skip::facing_self &&
                transform_direction(inverse(c.placement), frame.to_light()).z > 0;
     }
-    static constexpr std::size_t screened_together = 256;
+    static constexpr std::size_t pretested_together = 256;
     /// Screens points of one mesh, of parallel light.
     void screen(const points& at, std::size_t first, std::size_t last, const results& into) const {
         const std::uint32_t own = at.mesh[first];
         const bool is_grid = own < grids_.size() && grids_[own];
-        decision answers[screened_together];
-        std::fill_n(answers, last - first, decision::undecided);
-        if (is_grid && at.face_light) grids_[own]->decide_own(at, first, last, answers, level_);
+        decision decisions[pretested_together];
+        std::fill_n(decisions, last - first, decision::undecided);
+        if (is_grid && at.face_light) grids_[own]->decide_self(at, first, last, decisions, level_);
         const detail::tiled_plane& state = planes_.front();
         for (std::size_t i = first; i < last; ++i) {
-            const std::uint32_t occupant = state.occupants.only(state.tile_of(state.plane(at[i])));
+            const std::uint32_t only = state.casters_of_tiles.only(state.tile_of(state.plane(at[i])));
             into.lit[i] = unknown;
-            if (occupant == detail::tile_occupants::none ||
-                (occupant != detail::tile_occupants::several && occupant >= at.casters)) {
+            if (only == detail::tile_casters::none || (only != detail::tile_casters::several && only >= at.casters)) {
                 into.lit[i] = 1;
-            } else if (occupant == own && is_grid) {
-                const decision answer = answers[i - first];
+            } else if (only == own && is_grid) {
+                const decision decided = decisions[i - first];
                 const bool is_dark =
-                    answer == decision::undecided ? is_blocked_by_grid(own, at, i) : answer == decision::dark;
+                    decided == decision::undecided ? is_blocked_by_grid(own, at, i) : decided == decision::dark;
                 into.lit[i] = is_dark ? 0.0f : 1.0f;
                 into.caster[i] = is_dark ? own : invalid_id;
             }
@@ -161,7 +161,7 @@ class exact_occlusion {
         const auto decide = [&](std::uint32_t triangle) {
             return !(is_own && at.triangle[i] == triangle) && is_blocked_by(number, triangle, at[i]);
         };
-        return is_own && at.face_light ? grids_[number]->blocks_own(at[i], decide)
+        return is_own && at.face_light ? grids_[number]->blocks_self(at[i], decide)
                                        : grids_[number]->blocks(at[i], decide);
     }
     bool is_blocked_by(std::uint32_t number, std::uint32_t triangle, const glm::dvec3& p) const {
@@ -185,11 +185,11 @@ class exact_occlusion {
     void add_point_planes(const point_light& light, const bounding_box& bounds, int side, E& ex) {
         for (int i = 0; i < 6; ++i) {
             const detail::light_plane plane(light, i);
-            if (!detail::is_seen(plane, bounds)) {
+            if (!detail::is_visible_on(plane, bounds)) {
                 planes_.add({});
                 continue;
             }
-            const auto [lower, upper] = detail::seen_part(plane, bounds);
+            const auto [lower, upper] = detail::visible_extent(plane, bounds);
             add_plane(plane, {lower, upper - lower, side, side}, 0x1p-40, 0x1p-20 * reach_of(bounds), ex);
         }
     }
@@ -200,9 +200,9 @@ class exact_occlusion {
         tiles.lower -= margin;
         tiles.size += 2 * margin;
         detail::tiled_plane state{plane, tiles, static_cast<float>(error), {}, 1.0 / tiles.tile(), {}};
-        detail::dynamic_array<detail::tile_occupants::occupancy> occupants;
-        const auto occupy = [&](int column, int row, std::size_t caster) {
-            occupants.push_back(
+        detail::dynamic_array<detail::tile_casters::covered_tile> covered;
+        const auto cover = [&](int column, int row, std::size_t caster) {
+            covered.push_back(
                 {static_cast<std::uint32_t>(row * tiles.columns + column), static_cast<std::uint32_t>(caster)});
         };
         for (std::size_t i = 0; i < casters_.size(); ++i) {
@@ -211,7 +211,7 @@ class exact_occlusion {
                 state.casters.push_back({});
                 const auto [first, last] = state.tiles_under(c);
                 for (int row = first.y; row <= last.y; ++row)
-                    for (int column = first.x; column <= last.x; ++column) occupy(column, row, i);
+                    for (int column = first.x; column <= last.x; ++column) cover(column, row, i);
                 continue;
             }
             insonify::detail::require_indices(c.mesh, ex);
@@ -220,9 +220,9 @@ class exact_occlusion {
             const rect touched = built.tiles();
             for (int row = touched.y0; row < touched.y1; ++row)
                 for (int column = touched.x0; column < touched.x1; ++column)
-                    if (!built.bin(column, row).empty()) occupy(column, row, i);
+                    if (!built.bin(column, row).empty()) cover(column, row, i);
         }
-        state.occupants = {tiles.count(), occupants};
+        state.casters_of_tiles = {tiles.count(), covered};
         planes_.add(std::move(state));
     }
 
@@ -232,11 +232,11 @@ class exact_occlusion {
         cells.sort(all, at, glm::vec2(state->tiles.corner(tile)), glm::vec2(state->tiles.tile()));
         const auto row_length = static_cast<std::size_t>(state->tiles.columns);
         const auto column = static_cast<int>(tile % row_length), row = static_cast<int>(tile / row_length);
-        for (const std::uint32_t number : state->occupants.of(tile)) {
-            cells.close(number);
+        for (const std::uint32_t number : state->casters_of_tiles.of(tile)) {
+            cells.exclude_from(number);
             if (grids_[number]) {
                 for (std::size_t k = 0; k < cells.size(); ++k)
-                    if (cells.caster[k] == detail::receiver_cells::open) {
+                    if (cells.caster[k] == detail::receiver_cells::unblocked) {
                         const detail::batch_index place = cells.place[k];
                         if (is_blocked_by_grid(number, at[place.batch()], place.point()))
                             cells.caster[k] = static_cast<std::int32_t>(number);
@@ -250,9 +250,9 @@ class exact_occlusion {
                 return is_blocked_by(number, triangle, at[place.batch()][place.point()]);
             };
             insonify::detail::dispatch(
-                detail::occlusion_kernel<std::remove_const_t<decltype(decide)>>{caster, caster.bin(column, row), number,
-                                                                                c.may_skip, is_turned(c, *state),
-                                                                                state->error, cells, decide},
+                detail::occlusion_kernel<std::remove_const_t<decltype(decide)>>{
+                    caster, caster.bin(column, row), number, c.may_skip, front_is_clockwise(c, *state), state->error,
+                    cells, decide},
                 level_);
         }
         for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -264,7 +264,7 @@ class exact_occlusion {
     }
 
     /// Whether a triangle that faces the light is clockwise on the plane.
-    static bool is_turned(const caster& c, const detail::tiled_plane& state) {
+    static bool front_is_clockwise(const caster& c, const detail::tiled_plane& state) {
         return (numeric::determinant(c.placement.linear) < 0) != state.plane.is_mirrored();
     }
 

@@ -46,7 +46,7 @@ struct map_extent {
 };
 
 /// Vertex shader of height maps: from a mesh's coordinates to clip space, with w = 1.
-struct map_placement {
+struct map_vertex_shader {
     glm::mat3 axes;
     glm::vec3 start;
 
@@ -97,7 +97,7 @@ class height_map {
         const double room = 1e-3 * height + 1e-6;
         floor_ = extent.floor - room;
         relief_ = height + 2 * room;
-        heights_ = image<float>(texels(size.x), texels(size.y), empty_depth(keep_depth::larger));
+        heights_ = image<float>(texels(size.x), texels(size.y), empty_depth(depth_compare::greater));
     }
 
     /// Draws a mesh into the map as a caster; several meshes may share a map.
@@ -106,8 +106,8 @@ class height_map {
     template <executor_argument E = serial_executor>
     draw_stats cast(const mesh_view& m, const affine& to_world, E&& ex = {}) {
         if (heights_.empty()) return {};
-        return draw(m, placing(to_world), depth_target{heights_},
-                    draw_options<depth_precision::quick>{.keep = keep_depth::larger}, ex);
+        return draw(m, vertex_shader_for(to_world), depth_target{heights_},
+                    draw_options<depth_precision::quick>{.compare = depth_compare::greater}, ex);
     }
 
     const light_frame& frame() const { return frame_; }
@@ -129,7 +129,7 @@ class height_map {
   private:
     /// Vertex shader that maps a mesh onto the map. Mesh to clip space is one affine map, composed in double and
     /// narrowed last, when its numbers are small. Row 0 is where v is smallest, so triangles appear mirrored.
-    map_placement placing(const affine& to_world) const {
+    map_vertex_shader vertex_shader_for(const affine& to_world) const {
         const glm::dvec2 scale{2 / (texel_ * columns()), 2 / (texel_ * rows())};
         const auto to_clip = [&](const glm::dvec3& uvz) {
             return glm::dvec3((uvz.x - origin_.x) * scale.x - 1, 1 - (uvz.y - origin_.y) * scale.y,

@@ -7,7 +7,7 @@
 
 #include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/executor.hpp>
-#include <insonify/shadow/detail/tile_occupants.hpp>
+#include <insonify/shadow/detail/tile_casters.hpp>
 #include <insonify/shadow/map_lookup.hpp>
 #include <insonify/shadow/policy.hpp>
 
@@ -49,7 +49,7 @@ class map_occlusion {
         lowest_ = receivers.lowest;
         const glm::dvec2 size = receivers.highest - receivers.lowest;
         for (int i = 0; i < 2; ++i) tiles_per_metre_[i] = size[i] > 0 ? side / size[i] : 0;
-        insonify::detail::dynamic_array<detail::tile_occupants::occupancy> occupants;
+        insonify::detail::dynamic_array<detail::tile_casters::covered_tile> covered;
         for (std::size_t k = 0; k < casters_.size(); ++k) {
             const caster& c = casters_[k];
             const map_extent own = extent_of(c.box, c.placement, frame_).clipped_to(receivers);
@@ -60,10 +60,9 @@ class map_occlusion {
             const glm::ivec2 first = tile_of(own.lowest - reach), last = tile_of(own.highest + reach);
             for (int row = first.y; row <= last.y; ++row)
                 for (int column = first.x; column <= last.x; ++column)
-                    occupants.push_back(
-                        {static_cast<std::uint32_t>(row * side + column), static_cast<std::uint32_t>(k)});
+                    covered.push_back({static_cast<std::uint32_t>(row * side + column), static_cast<std::uint32_t>(k)});
         }
-        casters_of_tiles_ = {side * side, occupants};
+        casters_of_tiles_ = {side * side, covered};
     }
 
     /// See occlusion.
@@ -72,8 +71,8 @@ class map_occlusion {
             into.lit[i] = 1;
             into.caster[i] = invalid_id;
             const glm::dvec3 facet = facet_of(casters_, at, i);
-            const bool is_turned = numeric::dot(facet, frame_.to_light()) < 0;
-            const receiver_plane plane(frame_, at[i], is_turned ? -facet : facet);
+            const bool is_back_facing = numeric::dot(facet, frame_.to_light()) < 0;
+            const receiver_plane plane(frame_, at[i], is_back_facing ? -facet : facet);
             const bool is_grazed = !plane.faces_light && facet != glm::dvec3(0);
             const glm::ivec2 tile = tile_of(glm::dvec2(plane.uvz));
             for (const std::uint32_t k : casters_of_tiles_.of(static_cast<std::size_t>(tile.y * side + tile.x))) {
@@ -83,7 +82,7 @@ class map_occlusion {
                 if (fraction < 0.5f && into.caster[i] == invalid_id) into.caster[i] = k;
             }
             if (!is_grazed) continue;
-            // It blocks its own light.
+            // The facet is edge-on to the light: its own mesh shadows it.
             into.lit[i] = 0;
             into.caster[i] = (std::min)(into.caster[i], at.mesh[i]);
         }
@@ -104,8 +103,8 @@ class map_occlusion {
     }
 
     static light_frame parallel(const any_light& light) {
-        if (const auto* from_nearby = std::get_if<point_light>(&light)) {
-            const glm::dvec3& p = from_nearby->position;
+        if (const auto* point = std::get_if<point_light>(&light)) {
+            const glm::dvec3& p = point->position;
             insonify::detail::refuse("the distance of the light (overhead.light_distance)",
                                      numeric::square_root(numeric::dot(p, p)),
                                      "infinite for shadow maps; shadow::exact and shadow::penumbra take a point_light");
@@ -125,7 +124,7 @@ class map_occlusion {
     int radius_;
     insonify::detail::dynamic_array<height_map> maps_;
     glm::dvec2 lowest_{0}, tiles_per_metre_{0};
-    detail::tile_occupants casters_of_tiles_;
+    detail::tile_casters casters_of_tiles_;
 };
 
 }  // namespace INSONIFY_FLAGS

@@ -57,7 +57,7 @@ class penumbra_occlusion {
         any_light light;
 
         glm::dvec3 toward(const glm::dvec3& p) const {
-            if (const auto* from_nearby = std::get_if<point_light>(&light)) return from_nearby->position - p;
+            if (const auto* point = std::get_if<point_light>(&light)) return point->position - p;
             return light_frame(std::get<directional_light>(light)).to_light();
         }
     };
@@ -66,8 +66,8 @@ class penumbra_occlusion {
     /// @param disc_offset  from the disc's centre, across and up, divided by the light's distance
     static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& disc_offset) {
         if (disc_offset == glm::dvec2(0)) return light;
-        if (const auto* from_nearby = std::get_if<point_light>(&light))
-            return point_light{point_of_disc(from_nearby->position, disc_offset)};
+        if (const auto* point = std::get_if<point_light>(&light))
+            return point_light{point_of_disc(point->position, disc_offset)};
         const light_frame frame(std::get<directional_light>(light));
         const glm::dvec3 d = toward_disc(frame.to_light(), frame.travel(), disc_offset);
         const double elevation = numeric::atan2(d.z, numeric::square_root(d.x * d.x + d.y * d.y));
@@ -79,11 +79,11 @@ class penumbra_occlusion {
     void add(std::size_t number, const points& at, const results& one, const results& into) const {
         const sample &middle = lights_.front(), &here = lights_[number];
         glm::dvec3 to_middle = middle.toward({}), to_here = here.toward({});
-        const bool is_near = std::holds_alternative<point_light>(middle.light);
+        const bool is_point_light = std::holds_alternative<point_light>(middle.light);
         for (std::size_t i = 0; i < at.size(); ++i) {
             if (!(one.lit[i] > 0)) continue;
             const glm::dvec3 facet = facet_of(casters_, at, i);
-            if (is_near) {
+            if (is_point_light) {
                 to_middle = middle.toward(at[i]);
                 to_here = here.toward(at[i]);
             }

@@ -33,12 +33,13 @@ namespace shadow {
 /// Stands for no caster, no mesh or no triangle.
 inline constexpr std::uint32_t invalid_id = 0xFFFFFFFFu;
 
-/// Triangles of a caster that a test may skip, because others block the same points. Points of the caster itself that
-/// face away from the light (points::face_light) are tested against all of its triangles.
+/// Triangles of a caster that a test may skip without changing the result: every ray that one of them blocks is blocked
+/// by another, too. Points of the caster itself that face away from the light (points::face_light) are tested against
+/// all of its triangles.
 enum class skip {
-    nothing,         ///< both sides of all triangles block
-    facing,          ///< front faces towards the light: the mesh is closed, and no point lies inside
-    facing_its_own,  ///< the same, for points on the caster itself: a heightfield, lit and seen from above
+    nothing,      ///< both sides of all triangles block
+    facing,       ///< front faces towards the light: the mesh is closed, and no point lies inside
+    facing_self,  ///< the same, for points on the caster itself: a heightfield, lit and seen from above
 };
 
 /// A mesh that blocks light, in the frame in which the light is described. Both sides of its triangles block.

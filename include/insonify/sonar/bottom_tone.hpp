@@ -22,16 +22,16 @@ inline namespace INSONIFY_FLAGS {
 
 /// Levels in decibels, added to the seabed's. No variation if all are 0.
 struct bottom_tone {
-    float drift = 0;            ///< rms of the drift, 0 to 30
-    float drift_length = 20;    ///< metres between nodes of its coarsest octave, 1e-4 to 1e9
-    int octaves = 3;            ///< each of half the length and half the level of the one before, 1 to 8
-    float streaks = 0;          ///< rms of streaks, 0 to 30
-    float streak_width = 1.5f;  ///< metres between nodes across them, 1e-4 to 1e9
-    float streak_length = 40;   ///< metres between nodes along them, 1e-4 to 1e9
-    float direction = 0;        ///< of the streaks, radians from +x
-    float patches = 0;          ///< level of patches relative to the rest, -30 to 30
-    float patch_size = 15;      ///< metres between nodes of their outline, 1e-4 to 1e9
-    float patch_share = 0.3f;   ///< of the area, 0.01 to 0.99
+    float drift = 0;              ///< rms of the drift, 0 to 30
+    float drift_length = 20;      ///< metres between nodes of its coarsest octave, 1e-4 to 1e9
+    int octaves = 3;              ///< each of half the length and half the level of the one before, 1 to 8
+    float streaks = 0;            ///< rms of streaks, 0 to 30
+    float streak_width = 1.5f;    ///< metres between nodes across them, 1e-4 to 1e9
+    float streak_length = 40;     ///< metres between nodes along them, 1e-4 to 1e9
+    float direction = 0;          ///< of the streaks, radians from +x
+    float patches = 0;            ///< level of patches relative to the rest, -30 to 30
+    float patch_size = 15;        ///< metres between nodes of their outline, 1e-4 to 1e9
+    float patch_coverage = 0.3f;  ///< of the area, 0.01 to 0.99
     std::uint64_t seed = 1;
 
     bool is_none() const { return drift == 0 && streaks == 0 && patches == 0; }
@@ -53,7 +53,7 @@ inline void validate(const bottom_tone& t) {
     require_range("bottom_tone.octaves", t.octaves, 1, 8, "1 to 8");
     require_angle("bottom_tone.direction", t.direction);
     require_range("bottom_tone.patches", t.patches, -30, 30, "-30 to 30 dB");
-    require_range("bottom_tone.patch_share", t.patch_share, 0.01f, 0.99f, "0.01 to 0.99");
+    require_range("bottom_tone.patch_coverage", t.patch_coverage, 0.01f, 0.99f, "0.01 to 0.99");
 }
 
 /// Evaluates a tone.
@@ -67,7 +67,7 @@ class tone_sampler {
         double squares = 0, share = 1;
         for (int i = 0; i < t.octaves; ++i, share *= 0.5) squares += share * share;
         scale_ = static_cast<double>(t.drift) / numeric::square_root(squares);
-        threshold_ = numeric::normal_quantile(1 - static_cast<double>(t.patch_share));
+        threshold_ = numeric::normal_quantile(1 - static_cast<double>(t.patch_coverage));
     }
 
     /// @returns decibels

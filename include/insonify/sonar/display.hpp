@@ -74,12 +74,12 @@ enum class display_scale { power, amplitude, decibels };
 
 }  // namespace INSONIFY_FLAGS
 
-/// A contrast stretch by the picture's own percentiles, like "auto" in survey software: about a fraction `black` of the
-/// finite pixels is black, and about a fraction `white` of them white. NaN is black, infinity white.
+/// A contrast stretch by the picture's own percentiles, like "auto" in survey software: about `black_fraction` of the
+/// finite pixels is black, and about `white_fraction` white. NaN is black, infinity white.
 struct automatic_display {
     display_scale scale = display_scale::amplitude;
-    float black = 0.01f;  ///< fraction of the pixels, 0 to 0.49
-    float white = 0.01f;  ///< fraction of the pixels, 0 to 0.49
+    float black_fraction = 0.01f;  ///< fraction of the pixels, 0 to 0.49
+    float white_fraction = 0.01f;  ///< fraction of the pixels, 0 to 0.49
 
     using is_filter = std::true_type;
 
@@ -88,8 +88,8 @@ struct automatic_display {
         detail::require(
             scale == display_scale::power || scale == display_scale::amplitude || scale == display_scale::decibels,
             "automatic_display.scale", static_cast<int>(scale), "power, amplitude or decibels");
-        detail::require_range("automatic_display.black", black, 0, 0.49f, "0 to 0.49");
-        detail::require_range("automatic_display.white", white, 0, 0.49f, "0 to 0.49");
+        detail::require_range("automatic_display.black_fraction", black_fraction, 0, 0.49f, "0 to 0.49");
+        detail::require_range("automatic_display.white_fraction", white_fraction, 0, 0.49f, "0 to 0.49");
         detail::dynamic_array<float> values;
         values.reserve(picture.size());
         for (int y = 0; y < picture.height(); ++y)
@@ -103,7 +103,8 @@ struct automatic_display {
         };
         double low = 0, high = 1;
         if (!values.empty())
-            low = quantile(static_cast<double>(black)), high = quantile(1 - static_cast<double>(white));
+            low = quantile(static_cast<double>(black_fraction)),
+            high = quantile(1 - static_cast<double>(white_fraction));
         return [low, step = high > low ? 1 / (high - low) : 0.0, as = scale]<std::same_as<float> Pixel>(
                    Pixel intensity, int, int) -> Pixel {
             const double above = measure(static_cast<double>(intensity), as) - low;

@@ -43,12 +43,14 @@ struct instrument {
     }
     /// Correlation length (1 / e) of speckle intensities, in resolutions, for a pulse or an aperture with a flat band,
     /// whose correlation is the square of sin(u) / u.
-    static constexpr double flat_band_grain = 0.5234;
+    static constexpr double flat_band_speckle_length = 0.5234;
     /// Correlation length of speckle intensities across the track, metres.
-    INSONIFY_MEMBER double grain_across() const { return flat_band_grain * static_cast<double>(range_resolution); }
+    INSONIFY_MEMBER double speckle_length_across() const {
+        return flat_band_speckle_length * static_cast<double>(range_resolution);
+    }
     /// The same along the track: see horizontal_beam::speckle_length.
-    INSONIFY_MEMBER double grain_along(double slant_range) const {
-        return is_synthetic_aperture() ? flat_band_grain * static_cast<double>(along_track_resolution)
+    INSONIFY_MEMBER double speckle_length_along(double slant_range) const {
+        return is_synthetic_aperture() ? flat_band_speckle_length * static_cast<double>(along_track_resolution)
                                        : horizontal().speckle_length(slant_range, static_cast<double>(wavelength()));
     }
 };
@@ -83,7 +85,7 @@ inline const instrument& instrument_named(std::string_view name) {
         if (i.name == name) return i;
     std::string known;
     for (const instrument& i : instruments::all) known += (known.empty() ? "" : ", ") + std::string(i.name);
-    detail::raise(invalid_input("instrument is '" + std::string(name) + "', expected one of " + known));
+    detail::throw_error(invalid_input("instrument is '" + std::string(name) + "', expected one of " + known));
 }
 
 }  // namespace INSONIFY_FLAGS

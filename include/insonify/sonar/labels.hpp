@@ -29,12 +29,12 @@ struct target_label {
 /// One value per pixel of the picture in each image, and a list of the targets.
 struct labels {
     static constexpr std::uint16_t no_instance = 0;     ///< seabed, or neither seabed nor target
-    static constexpr std::uint16_t is_lit = 0;          ///< at least half of the light, or that of its centre, arrives
+    static constexpr std::uint16_t no_shadow = 0;       ///< at least half of the light, or that of its centre, arrives
     static constexpr std::uint16_t by_seabed = 0xFFFF;  ///< in the shadow of the seabed
     static constexpr std::uint8_t no_seabed = 0xFF;     ///< a target, or neither
 
     image<std::uint16_t> instance;  ///< 1 for the scene's first target, 2 for the second, ...
-    image<std::uint16_t> shadow;    ///< is_lit, by_seabed, or the instance that casts the shadow
+    image<std::uint16_t> shadow;    ///< no_shadow, by_seabed, or the instance that casts the shadow
     image<std::uint8_t> seabed;     ///< a seabed::type, or no_seabed
     std::vector<target_label> targets;
     std::vector<insonify::seabed::type_properties> legend;  ///< of the values of `seabed`
@@ -48,7 +48,7 @@ struct labels {
     template <executor_argument Executor = serial_executor>
     INSONIFY_MEMBER labels(int width, int height, Executor&& ex = serial_executor{})
         : instance(detail::filled(width, height, no_instance, ex)),
-          shadow(detail::filled(width, height, is_lit, ex)),
+          shadow(detail::filled(width, height, no_shadow, ex)),
           seabed(detail::filled(width, height, no_seabed, ex)) {}
     /// Lists the scene's targets and legend; no pixel is labelled yet.
     template <executor_argument Executor = serial_executor>
@@ -123,7 +123,7 @@ INSONIFY_FUNCTION image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t
     image<std::uint8_t> mask(l.shadow.width(), l.shadow.height());
     const auto is_shown = [&](std::size_t i) {
         if (l.instance.pixels()[i] != labels::no_instance || l.shadow.pixels()[i] != instance) return false;
-        return instance != labels::is_lit || l.seabed.pixels()[i] != labels::no_seabed;
+        return instance != labels::no_shadow || l.seabed.pixels()[i] != labels::no_seabed;
     };
     for (std::size_t i = 0; i < mask.size(); ++i) mask.pixels()[i] = is_shown(i) ? 255 : 0;
     return mask;
@@ -160,7 +160,7 @@ INSONIFY_FUNCTION void measure_targets(labels& l) {
                 detail::require_listed(l, "labels.instance", instance);
                 target_label& t = l.targets[instance - 1u];
                 include(t.box, t.area, x, y);
-            } else if (shadow != labels::is_lit && shadow != labels::by_seabed) {
+            } else if (shadow != labels::no_shadow && shadow != labels::by_seabed) {
                 detail::require_listed(l, "labels.shadow", shadow);
                 target_label& t = l.targets[shadow - 1u];
                 include(t.shadow_box, t.shadow_area, x, y);

@@ -96,8 +96,8 @@ INSONIFY_FUNCTION bottom_materials resolved_bottom(const scene& s) {
         detail::require(t.reflectivity >= 0 && numeric::is_finite(t.reflectivity), "type_properties.reflectivity",
                         t.reflectivity, "0 or more, finite");
         const std::size_t label = insonify::seabed::index_of(t.label);
-        detail::require(label >= insonify::seabed::first_own_label || t == insonify::seabed::properties_of(t.label),
-                        "type_properties.label", label, "own_type(n), as its properties are not the library's");
+        detail::require(label >= insonify::seabed::first_user_label || t == insonify::seabed::properties_of(t.label),
+                        "type_properties.label", label, "user_type(n), as its properties are not the library's");
         material& m = all[label];
         if (m.reflectivity == by_seabed_model) m = {t.reflectivity};
     }

@@ -19,7 +19,7 @@ inline namespace INSONIFY_FLAGS {
 /// `lambert_backscatter` to compute levels. This is absolute; `scene.bottom` and `type_properties` are relative to a
 /// bright target: there medium sand, 0.032 here, has 0.45, `properties_of(type_of(s)).reflectivity`.
 constexpr material surface_of(sediment s) {
-    return {seabed::facts_of(s).strength_at_nadir()};
+    return {seabed::parameters_of(s).strength_at_nadir()};
 }
 
 /// Materials by label.

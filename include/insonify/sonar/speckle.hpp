@@ -45,7 +45,7 @@ struct seabed_speckle {
     /// Correlation length (1 / e) in pings of intensities without steady echo or texture, 0 to 16. All labels share one
     /// field: beside a steady echo it is up to 1.4 times as long; a texture has its own length.
     float along_track = 1;
-    float across_track = 1;    ///< the same in bins
+    float across_track = 1;    ///< the same across the track, in bins
     float texture_length = 3;  ///< pings and bins between nodes of the texture's lattice, 1 to 1024; 1 / e at 0.4 of it
     std::uint64_t seed = 1;
 };
@@ -180,7 +180,7 @@ frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex
         const auto noisy = with_speckle(mean.view(), types.view(), completed, {r.rows.first, r.rows.step, facing}, ex);
         return is_port ? mirrored(noisy) : noisy;
     };
-    r.image = beside(channel(side::port, 0, port), channel(side::starboard, port, r.image.width() - port));
+    r.image = side_by_side(channel(side::port, 0, port), channel(side::starboard, port, r.image.width() - port));
     return r;
 }
 

@@ -60,8 +60,8 @@ double pixel_distance(const Pixel& a, const Pixel& b) {
     for (int c = 0; c < channels_of<Pixel>::count; ++c) {
         const double p = channels_of<Pixel>::at(a, c), q = channels_of<Pixel>::at(b, c);
         if (p == q || (p != p && q != q)) continue;
-        const double off = p < q ? q - p : p - q;
-        largest = off == off ? (std::max)(largest, off) : std::numeric_limits<double>::infinity();
+        const double difference = p < q ? q - p : p - q;
+        largest = difference == difference ? (std::max)(largest, difference) : std::numeric_limits<double>::infinity();
     }
     return largest;
 }
@@ -96,10 +96,10 @@ picture_comparison compare_pictures(const image<Pixel>& found, const image<Pixel
     result.pixels = found.size();
     for (int y = 0; y < found.height(); ++y)
         for (int x = 0; x < found.width(); ++x) {
-            const double off = detail::pixel_distance(found(x, y), expected(x, y));
-            if (off > tolerance.value) ++result.wrong;
-            if (off > result.largest) {
-                result.largest = off;
+            const double difference = detail::pixel_distance(found(x, y), expected(x, y));
+            if (difference > tolerance.value) ++result.wrong;
+            if (difference > result.largest) {
+                result.largest = difference;
                 result.x = x;
                 result.y = y;
             }
@@ -145,11 +145,12 @@ image<rgb8> difference_picture(const image<Pixel>& found, const image<Pixel>& ex
     image<rgb8> picture(found.width(), found.height());
     for (int y = 0; y < found.height(); ++y)
         for (int x = 0; x < found.width(); ++x) {
-            const double off = detail::pixel_distance(found(x, y), expected(x, y));
+            const double difference = detail::pixel_distance(found(x, y), expected(x, y));
             const auto dim = static_cast<std::uint8_t>(level(mean(expected(x, y)), brightest) / 3);
-            const auto mark = static_cast<std::uint8_t>(off > 0 ? 80 + 175 * level(off, largest) / 255 : 0);
+            const auto mark =
+                static_cast<std::uint8_t>(difference > 0 ? 80 + 175 * level(difference, largest) / 255 : 0);
             const bool is_darker = mean(found(x, y)) < mean(expected(x, y));
-            picture(x, y) = off > 0 ? (is_darker ? rgb8{0, 0, mark} : rgb8{mark, 0, 0}) : rgb8{dim, dim, dim};
+            picture(x, y) = difference > 0 ? (is_darker ? rgb8{0, 0, mark} : rgb8{mark, 0, 0}) : rgb8{dim, dim, dim};
         }
     return picture;
 }

@@ -93,7 +93,7 @@ void for_each_policy(const Visit& visit) {
 
 in::image<std::uint8_t> dark_of(const in::labels& l) {
     return in::map_pixels(l.shadow,
-                          [](std::uint16_t by) { return static_cast<std::uint8_t>(by != in::labels::is_lit); });
+                          [](std::uint16_t by) { return static_cast<std::uint8_t>(by != in::labels::no_shadow); });
 }
 /// The dark pixels of the bottom alone: on a target, facets turn dark one by one.
 in::image<std::uint8_t> dark_bottom_of(const in::labels& l) {
@@ -352,9 +352,9 @@ void measure_depth(const options& o, report::contents& into) {
         in::image<float> depth(o.pixels, o.pixels, 0.0f);
         if (quick)
             in::draw(bottom, vertex_shader, in::depth_target{depth},
-                     in::draw_options<in::depth_precision::quick>{.keep = in::keep_depth::larger});
+                     in::draw_options<in::depth_precision::quick>{.compare = in::depth_compare::greater});
         else
-            in::draw(bottom, vertex_shader, in::depth_target{depth}, {.keep = in::keep_depth::larger});
+            in::draw(bottom, vertex_shader, in::depth_target{depth}, {.compare = in::depth_compare::greater});
         return depth;
     };
     const auto exact = draw(false);

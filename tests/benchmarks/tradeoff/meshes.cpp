@@ -46,7 +46,7 @@ struct trial {
             if (!is_first) continue;
             const auto found = shadow_oracle::compare(lights[i].truth, drawn.labels);
             const auto dark = in::map_pixels(drawn.labels.shadow, [](std::uint16_t by) {
-                return static_cast<std::uint8_t>(by != in::labels::is_lit);
+                return static_cast<std::uint8_t>(by != in::labels::no_shadow);
             });
             configuration.wrong += 0.5e6 * found.share_with_beside();
             configuration.edge += 0.5 * in::accuracy::compare_masks(dark, lights[i].dark).mean_boundary_displacement();

@@ -60,7 +60,7 @@ trial random_trial(std::uint64_t seed, int pixels) {
 
 in::image<std::uint8_t> dark_of(const in::labels& l) {
     return in::map_pixels(l.shadow,
-                          [](std::uint16_t by) { return static_cast<std::uint8_t>(by != in::labels::is_lit); });
+                          [](std::uint16_t by) { return static_cast<std::uint8_t>(by != in::labels::no_shadow); });
 }
 
 /// Displacement of the edges of shadows, against marched rays.
@@ -280,7 +280,7 @@ TEST_CASE("Settings of any picture size are ones that render takes") {
     }
 }
 
-TEST_CASE("The ground truth of level ground is lit at the zenith and under near lights") {
+TEST_CASE("The ground truth of level ground is lit at the zenith and under point lights") {
     const in::seabed::flat level{.surface = {.rms = 0}};
     const auto error = [&](const in::overhead& rig) {
         return in::accuracy::settings_for({}, level, rig).expected.shadow_edge;
@@ -290,7 +290,7 @@ TEST_CASE("The ground truth of level ground is lit at the zenith and under near 
         CHECK(error({.size = {512, 512}, .grazing = 8_deg, .light_distance = distance}) == 0);
 }
 
-TEST_CASE("Near lights are measured against pictures under the same light") {
+TEST_CASE("Point lights are measured against pictures under the same light") {
     const auto error = [](float distance) {
         const in::overhead rig{.altitude = 10, .size = {512, 512}, .grazing = 8_deg, .light_distance = distance};
         return in::accuracy::settings_for({.shadow_edge = 0.5}, in::seabed::ripples{}, rig).expected.shadow_edge;
@@ -298,7 +298,7 @@ TEST_CASE("Near lights are measured against pictures under the same light") {
     CHECK(error(6) < 0.5);
 }
 
-TEST_CASE("A budget holds all over a picture under a near light, which is lowest at its far edge") {
+TEST_CASE("A budget holds all over a picture under a point light, which is lowest at its far edge") {
     in::thread_pool pool(2);
     const in::overhead rig{.altitude = 10, .size = {384, 384}, .grazing = 8_deg, .light_distance = 15};
     in::scene scene;

@@ -28,16 +28,16 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 TEST_CASE("Masks are compared by their intersection over union, false and missed pixels") {
     const mask truth = rectangle(20, 20, 5, 5, 15, 15), shifted = rectangle(20, 20, 6, 5, 16, 15);
     const auto d = accuracy::compare_masks(shifted, truth);
-    CHECK(d.common == 90);
-    CHECK(d.false_pixels == 10);
-    CHECK(d.missed_pixels == 10);
+    CHECK(d.true_positives == 90);
+    CHECK(d.false_positives == 10);
+    CHECK(d.false_negatives == 10);
     CHECK(d.intersection_over_union() == Approx(90.0 / 110));
     CHECK(d.boundary_pixels == 36);
     CHECK(d.mean_boundary_displacement() == Approx(20.0 / 36));
 
     const auto reversed = accuracy::compare_masks(truth, rectangle(20, 20, 5, 5, 15, 14));
-    CHECK(reversed.false_pixels == 10);
-    CHECK(reversed.missed_pixels == 0);
+    CHECK(reversed.false_positives == 10);
+    CHECK(reversed.false_negatives == 0);
 }
 
 TEST_CASE("Growing a mask by a pixel displaces its boundary by about one pixel") {

@@ -124,7 +124,7 @@ TEST_CASE("release() frees the kept blocks") {
     CHECK(context.kept_bytes() > 0);
 }
 
-TEST_CASE("release() forgets the peak, so that a block in use is freed and not kept") {
+TEST_CASE("release() resets the peak, so that a block in use is freed and not kept unless more are allocated before") {
     in::context context;
     in::image<float> in_use(512, 512, uninitialized{}, context.memory());
     context.release();

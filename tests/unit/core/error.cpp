@@ -53,6 +53,6 @@ TEST_CASE("Numbers beyond those of a double are read as 0 or infinite, however t
 }
 
 TEST_CASE("Both errors derive from exceptions of the standard library") {
-    CHECK_THROWS_AS(in::detail::raise(in::invalid_input("x")), std::invalid_argument);
-    CHECK_THROWS_AS(in::detail::raise(in::io_error("x")), std::runtime_error);
+    CHECK_THROWS_AS(in::detail::throw_error(in::invalid_input("x")), std::invalid_argument);
+    CHECK_THROWS_AS(in::detail::throw_error(in::io_error("x")), std::runtime_error);
 }

@@ -87,9 +87,9 @@ TEST_CASE("Sums of double-doubles that cancel keep all bits") {
     in::random_sequence random(7);
     double worst = 0;
     for (int n = 0; n < 10000; ++n) {
-        const double high = random.uniform(1, 2), near = high * (1 + random.below(8) * 0x1p-52);
+        const double high = random.uniform(1, 2), close_by = high * (1 + random.below(8) * 0x1p-52);
         const double_double a = double_double::sum(high, high * 0x1p-54 * random.uniform(-1, 1)),
-                            b = double_double::sum(-near, near * 0x1p-54 * random.uniform(-1, 1));
+                            b = double_double::sum(-close_by, close_by * 0x1p-54 * random.uniform(-1, 1));
         // In this order without rounding.
         const wide_float expected = (static_cast<wide_float>(a.high) + static_cast<wide_float>(b.high)) +
                                     (static_cast<wide_float>(a.low) + static_cast<wide_float>(b.low));

@@ -196,6 +196,15 @@ TEST_CASE("Under a mask, a filter changes and measures the chosen pixels alone")
     const in::image<std::uint8_t> more_zeros = zeros;
     CHECK((source | chain) == (source | in::where(mask, in::speckle{.seed = 1} | in::equalize{})));
 
+    const auto constant = [&]() -> const in::image<std::uint8_t> { return mask; };
+    const auto copied = in::where(constant(), in::speckle{.seed = 1});
+    const in::image<std::uint8_t> again_zeros = zeros;
+    CHECK((source | copied) == some);
+    const auto move_only = [shift = std::make_unique<float>(0.25f)](float v) { return v + *shift; };
+    static_assert(!std::is_copy_constructible_v<decltype(move_only)>);
+    CHECK((source | in::where(mask, [shift = std::make_unique<float>(0.25f)](float v) { return v + *shift; })) ==
+          (source | in::where(mask, [](float v) { return v + 0.25f; })));
+
     const in::image<std::uint8_t> none(600, 30);
     CHECK((source | in::where(none, match)) == source);
     CHECK((source | in::where(none, in::equalize{} | shifted{})) == source);

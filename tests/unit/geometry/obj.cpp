@@ -162,8 +162,8 @@ TEST_CASE("Texture coordinates divide a position along a seam, where its normal 
     const std::string coordinates = "vt 0.1 0\nvt 1 0\nvt 1 1 0.5\nvt 0.5\n", bent = "v 0 0 1\n";
     const std::string faces = "f 1/1 2/2 3/3\nf 1/4 3/3 4\nf 1/-1/ 4 5\n";
     const in::textured_mesh m = in::read_textured_obj(square + bent + coordinates + faces);
-    const auto texture = [&](std::size_t t, int corner) { return m.texture[m.shape.triangles[t][corner]]; };
-    CHECK(m.texture.size() == 6);  // 1/1 1/4, 2/2, 3/3, 4, 5
+    const auto texture = [&](std::size_t t, int corner) { return m.texture_coordinates[m.shape.triangles[t][corner]]; };
+    CHECK(m.texture_coordinates.size() == 6);  // 1/1 1/4, 2/2, 3/3, 4, 5
     CHECK(m.shape.positions.size() == 6);
     CHECK(texture(0, 0) == glm::vec2(0.1f, 0));
     CHECK(texture(0, 2) == glm::vec2(1, 1));
@@ -180,7 +180,7 @@ TEST_CASE("Texture coordinates divide a position along a seam, where its normal 
         }
     // Normals and texture coordinates divide independently.
     CHECK(in::read_textured_obj(square + coordinates + "vn 1 0 0\nvn 0 1 0\nf 1/1/1 2 3\nf 1/2/1 2 3\nf 1/1/2 2 3")
-              .texture.size() == 5);
+              .texture_coordinates.size() == 5);
 }
 
 TEST_CASE("Malformed texture coordinates are refused where they are read") {
@@ -229,7 +229,7 @@ TEST_CASE("An origin is subtracted from positions before they are rounded to flo
         CHECK(glm::distance(m.positions[2], glm::vec3(0.01f, 0.01f, 0.01f)) < 1e-9f);
         CHECK(m.normals[1] == glm::vec3(0, 0, 1));
     }
-    CHECK(textured.texture[0] == glm::vec2(0.25f, 0.75f));
+    CHECK(textured.texture_coordinates[0] == glm::vec2(0.25f, 0.75f));
     CHECK(in::read_obj(text).positions[1].y == in::read_obj(text).positions[2].y);
 }
 
@@ -438,8 +438,8 @@ TEST_CASE("Spot, a public mesh, is a closed surface of one piece") {
     CHECK(t.euler_characteristic() == 2);
 
     const in::textured_mesh textured = in::load_textured_obj(path);
-    CHECK(textured.texture.size() == textured.shape.positions.size());
-    CHECK(textured.texture.size() > spot.positions.size());
+    CHECK(textured.texture_coordinates.size() == textured.shape.positions.size());
+    CHECK(textured.texture_coordinates.size() > spot.positions.size());
     std::size_t differing = 0;
     for (std::size_t i = 0; i < spot.triangles.size(); ++i)
         for (int k = 0; k < 3; ++k)

@@ -192,14 +192,14 @@ TEST_CASE("Cylinders lie along x, cones stand along z, hemispheres stand on z = 
 }
 
 TEST_CASE("An outline turns about any axis without being mirrored") {
-    const std::vector<in::outline_point> can = {{0, 0, 0, -1}, {1, 0, 0, -1}, {1, 0, 1, 0},
+    const std::vector<in::profile_point> can = {{0, 0, 0, -1}, {1, 0, 0, -1}, {1, 0, 1, 0},
                                                 {1, 2, 1, 0},  {1, 2, 0, 1},  {0, 2, 0, 1}};
     const auto around = GENERATE(in::axis::x, in::axis::y, in::axis::z);
     const in::mesh m = in::revolve(can, 1024, around);
     CHECK(in::inspect(m).closed());
     CHECK(measure(m).volume == Approx(2 * pi).epsilon(1e-4));
-    CHECK_THROWS_AS(in::revolve(std::vector<in::outline_point>{{-1, 0, 0, 1}}, 8), in::invalid_input);
-    CHECK_THROWS_AS(in::revolve(std::vector<in::outline_point>{{1, std::sqrt(-1.0), 0, 1}}, 8), in::invalid_input);
+    CHECK_THROWS_AS(in::revolve(std::vector<in::profile_point>{{-1, 0, 0, 1}}, 8), in::invalid_input);
+    CHECK_THROWS_AS(in::revolve(std::vector<in::profile_point>{{1, std::sqrt(-1.0), 0, 1}}, 8), in::invalid_input);
 }
 
 TEST_CASE("segments_for gives the fewest segments within the chord error") {
@@ -285,12 +285,12 @@ TEST_CASE("Topology distinguishes open, tangled and closed surfaces") {
     }
     SECTION("a turned triangle tangles its three edges") {
         std::swap(m.triangles[0].x, m.triangles[0].y);
-        CHECK(in::inspect(m).tangled_edges == 3);
+        CHECK(in::inspect(m).non_manifold_edges == 3);
     }
     SECTION("a third triangle at an edge tangles it") {
         m.positions.push_back({5, 5, 5});
         m.triangles.push_back({0, 1, 4});
-        CHECK(in::inspect(m).tangled_edges == 1);
+        CHECK(in::inspect(m).non_manifold_edges == 1);
         CHECK(in::inspect(m).boundary_edges == 2);
     }
     SECTION("a repeated corner is counted and left out; NaN equals nothing; -0 equals 0") {
@@ -321,11 +321,11 @@ TEST_CASE("Topology distinguishes open, tangled and closed surfaces") {
         for (const auto& [size, away] : {std::pair(1.0f, 9.0f), std::pair(0.1f, 0.1f)}) {
             CHECK(with(size, away, false).solid());
             CHECK(with(size, away, true).closed());
-            CHECK(with(size, away, true).inward_pieces == 1);
+            CHECK(with(size, away, true).inward_components == 1);
             CHECK_FALSE(with(size, away, true).solid());
         }
         for (glm::vec3& p : m.positions) p.z = 0;  // flat, it has no inside
-        CHECK(in::inspect(m).inward_pieces == 1);
+        CHECK(in::inspect(m).inward_components == 1);
     }
     SECTION("an empty mesh is not closed") {
         CHECK_FALSE(in::inspect(in::mesh{}).closed());

@@ -123,10 +123,10 @@ TEST_CASE("regular_grid::off is the largest distance of a vertex from its lattic
         m.positions[i].x = column - 0.5f * row;
         m.positions[i].y = 0.5f * column + 0.25f * row;
     }
-    CHECK(in::regular_grid_of(m).value().off == 0);
+    CHECK(in::regular_grid_of(m).value().lattice_error == 0);
     // Straight across the longer step: by 0.75 of it and 2.5 of the shorter one, times 2^-11.
     m.positions[40] += 0x1p-11f * glm::vec3(-0.5f, 1, 0);
-    CHECK(in::regular_grid_of(m).value().off == Approx(2.5 * 0x1p-11));
+    CHECK(in::regular_grid_of(m).value().lattice_error == Approx(2.5 * 0x1p-11));
     // Decimal steps are rounded to float.
-    CHECK(in::regular_grid_of(grid_of(9, 9)).value().off < 1e-6);
+    CHECK(in::regular_grid_of(grid_of(9, 9)).value().lattice_error < 1e-6);
 }

@@ -15,7 +15,7 @@ namespace {
 
 using in::detail::clip_polygon;
 
-const in::detail::projection to_small_screen(in::detail::pixel_grid{8, 64, 64}, in::keep_depth::smaller, true);
+const in::detail::projection to_small_screen(in::detail::pixel_grid{8, 64, 64}, in::depth_compare::less, true);
 
 glm::dvec4 any_position(in::random_sequence& random) {
     const auto at = [&] { return random.uniform(-3, 3); };
@@ -61,7 +61,7 @@ TEST_CASE("Clipped triangles keep their varyings, weights and depths") {
     // Looking along y from the origin over a tilted plane z = 0.2 y - 1 that goes on behind the eye.
     const auto along = [](const in::vertex& v) {
         const glm::vec3& p = v.position;
-        return in::placed_vertex<glm::vec3>{{p.x, p.z, (p.y - 0.5f) * 1.25f, p.y}, p};
+        return in::vertex_output<glm::vec3>{{p.x, p.z, (p.y - 0.5f) * 1.25f, p.y}, p};
     };
     const in::mesh m{{{-40, -30, -7}, {45, -20, -5}, {3, 60, 11}}, {}, {{0, 1, 2}}};
     in::image<float> depth(64, 64);
@@ -136,7 +136,7 @@ TEST_CASE("Corners are rounded to nearest up to 2^27 sub-pixels, and beyond to t
     __extension__ using wide = __int128;
     in::random_sequence random(4);
     for (const int width : {64, 2047, 4194303}) {
-        const in::detail::projection exact(in::detail::pixel_grid{8, width, 64}, in::keep_depth::smaller, true);
+        const in::detail::projection exact(in::detail::pixel_grid{8, width, 64}, in::depth_compare::less, true);
         int near_ties = 0;
         for (int n = 0; n < 200000; ++n) {
             // x / w in sub-pixels, as close to a tie between two of them as such floats come: the closest of several

@@ -34,7 +34,7 @@ glm::vec4 pinhole(const glm::vec3& p) {
     return {p.x, p.y, 0.01f, 3 - p.z};
 }
 const auto place_with_position = [](const in::vertex& v) {
-    return in::placed_vertex<glm::vec3>{pinhole(v.position), v.position};
+    return in::vertex_output<glm::vec3>{pinhole(v.position), v.position};
 };
 const auto place_only = [](const in::vertex& v) { return pinhole(v.position); };
 
@@ -46,7 +46,7 @@ struct picture {
 
 picture draw_bumps(const in::mesh& m, in::draw_options<> options, auto&& ex) {
     picture p(200, 130);
-    options.keep = in::keep_depth::larger;
+    options.compare = in::depth_compare::greater;
     options.load = in::depth_load::clear;
     in::draw(
         m, place_with_position, [](const in::fragment<glm::vec3>& f) { return f.varyings.z; },
@@ -77,7 +77,7 @@ TEST_CASE("A mesh_view of the caller's buffers is drawn like a mesh") {
     const in::mesh m = bumps(20);
     const std::vector<glm::vec3> positions = m.positions;
     const std::vector<glm::uvec3> triangles = m.triangles;
-    const in::draw_options<> options{.keep = in::keep_depth::larger, .load = in::depth_load::clear};
+    const in::draw_options<> options{.compare = in::depth_compare::greater, .load = in::depth_load::clear};
     in::image<float> of_mesh(90, 70), of_buffers(90, 70);
     in::draw(m, place_only, in::depth_target{of_mesh}, options);
     in::draw({positions, {}, triangles}, place_only, in::depth_target{of_buffers}, options);
@@ -91,7 +91,7 @@ TEST_CASE("A depth-only draw writes the depth of a shaded one and takes no fragm
     const picture shaded = draw_bumps(m, {}, in::serial_executor{});
     in::image<float> depth(200, 130);
     const auto stats = in::draw(m, place_only, in::depth_target{depth},
-                                {.keep = in::keep_depth::larger, .load = in::depth_load::clear});
+                                {.compare = in::depth_compare::greater, .load = in::depth_load::clear});
     CHECK(depth == shaded.depth);
     CHECK(stats.pixels == 0);
 }
@@ -116,7 +116,7 @@ TEMPLATE_TEST_CASE_SIG("Varyings equal the intersections of rays with the plane"
             CHECK(f.weights.x + f.weights.y + f.weights.z == Approx(1));
         },
         in::framebuffer<void>{depth},
-        in::draw_options<Depth>{.keep = in::keep_depth::larger, .load = in::depth_load::clear});
+        in::draw_options<Depth>{.compare = in::depth_compare::greater, .load = in::depth_load::clear});
     CHECK(stats.pixels > 5000);
     // Snapping moves a vertex by up to 2^-9 pixels of 2^-6 m x distance each.
     CHECK(worst < 3e-4);
@@ -158,7 +158,7 @@ TEST_CASE("The nearer surface is visible in any order of drawing; a tie keeps th
     picture p(32, 32);
     const auto paint = [&](float z, float color, in::depth_load load) {
         in::draw(sheet(z), place_only, [=](const auto&) { return color; }, in::framebuffer<float>{p.color, p.depth},
-                 {.keep = in::keep_depth::larger, .load = load});
+                 {.compare = in::depth_compare::greater, .load = load});
     };
     paint(near_first ? 1.0f : 0.0f, near_first ? 1.0f : 2.0f, in::depth_load::clear);
     paint(near_first ? 0.0f : 1.0f, near_first ? 2.0f : 1.0f, in::depth_load::keep);
@@ -184,7 +184,7 @@ TEST_CASE("Triangles that cross the camera plane show the part in front, without
             floor.triangles.push_back({a, a + n + 1, a + n});
         }
     const int bits = GENERATE(8, 12);
-    const auto count = hits(floor, 64, 64, along, {.keep = in::keep_depth::larger, .subpixel_bits = bits});
+    const auto count = hits(floor, 64, 64, along, {.compare = in::depth_compare::greater, .subpixel_bits = bits});
     CHECK(max_count(count) == 1);
     for (int y = 34; y < 64; ++y)
         for (int x = 0; x < 64; ++x) CHECK(count(x, y) == 1);  // all below the horizon

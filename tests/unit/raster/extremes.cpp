@@ -148,7 +148,7 @@ TEST_CASE("Triangles without area on the grid are counted, not drawn") {
     in::image<float> depth(16, 16);
     const auto stats = in::draw(m, pixel_space{16, 16}, in::depth_target{depth}, {.load = in::depth_load::clear});
     CHECK(stats.degenerate == 4);
-    for (const float d : depth.pixels()) CHECK(d == in::empty_depth(in::keep_depth::smaller));
+    for (const float d : depth.pixels()) CHECK(d == in::empty_depth(in::depth_compare::less));
 }
 
 TEST_CASE("Indices out of range are refused at any position, and nothing is drawn") {

@@ -43,7 +43,7 @@ std::vector<glm::dvec2> thin_polygon(in::random_sequence& random) {
 TEST_CASE("The parts of a polygon cover the pixels of non-zero winding number in its direction") {
     in::random_sequence random(6);
     const in::detail::pixel_grid grid{screen_bits, screen_size, screen_size};
-    const in::detail::projection to_screen(grid, in::keep_depth::smaller, true);
+    const in::detail::projection to_screen(grid, in::depth_compare::less, true);
     int folded = 0, covered = 0;
     for (int n = 0; n < 4000; ++n) {
         const auto points = thin_polygon(random);
@@ -88,7 +88,7 @@ TEST_CASE("A span of a folded polygon is drawn to its ends and no further") {
             return glm::vec4(p.x * v.position.z, p.y * v.position.z, v.position.z * 0.9f - 0.05f, v.position.z);
         };
         const in::detail::pixel_grid grid{screen_bits, screen_size, screen_size};
-        const in::detail::projection to_screen(grid, in::keep_depth::smaller, true);
+        const in::detail::projection to_screen(grid, in::depth_compare::less, true);
         std::array<glm::dvec4, 3> clip;
         for (std::uint32_t i = 0; i < 3; ++i) clip[i] = glm::dvec4(place({m.positions[i], {}, i}));
         const auto cut = to_screen.clip(clip);
@@ -127,7 +127,7 @@ TEST_CASE("Fragments of a folded polygon show the side that culling goes by") {
                               {-0.300366759f, 0.33705771f, -0.33109355f, 0.821128845f},
                               {-0.748941541f, 0.749838054f, 1.50292158f, 1.76830506f}};
     for (const bool is_mirrored : {false, true}) {
-        in::image<float> depth(32, 32, in::empty_depth(in::keep_depth::smaller));
+        in::image<float> depth(32, 32, in::empty_depth(in::depth_compare::less));
         in::image<int> front(32, 32, -1);
         const auto place = [&](const in::vertex& v) {
             const glm::vec4 p = clip[v.index];

@@ -252,7 +252,7 @@ TEST_CASE("A ray through the diagonal of a quad hits it") {
     const auto from_above = [](const in::vertex& v) {
         return glm::vec4(v.position.x, v.position.y, 0.01f, 10 - v.position.z);
     };
-    const auto count = hits(m, 80, 80, from_above, {.keep = in::keep_depth::larger});
+    const auto count = hits(m, 80, 80, from_above, {.compare = in::depth_compare::greater});
     CHECK(count(53, 80 - 1 - 53) == 1);  // its centre is (3.375, 3.375) on the quad
     CHECK(total(count) == 40 * 40);
     CHECK(max_count(count) == 1);

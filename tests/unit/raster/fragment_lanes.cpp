@@ -26,7 +26,7 @@ struct varyings {
 /// A pinhole at (0, 0, 3) that looks down, with reversed depth.
 const auto seen_from_above = [](const in::vertex& v) {
     const glm::vec3& p = v.position;
-    return in::placed_vertex<varyings>{{p.x, p.y, 0.01f, 3 - p.z}, {p, p.z}};
+    return in::vertex_output<varyings>{{p.x, p.y, 0.01f, 3 - p.z}, {p, p.z}};
 };
 
 in::mesh rubble() {
@@ -80,7 +80,7 @@ template <in::depth_precision Depth>
 pictures drawn(const in::mesh& m, in::isa level, int tile, auto&& ex) {
     pictures out;
     const in::draw_options<Depth> options{
-        .keep = in::keep_depth::larger, .load = in::depth_load::clear, .tile = tile, .level = level};
+        .compare = in::depth_compare::greater, .load = in::depth_load::clear, .tile = tile, .level = level};
     const auto stats = in::draw(m, seen_from_above, lane_shader{out}, in::framebuffer<void>{out.depth}, options, ex);
     CHECK(stats.pixels > 8000);
     CHECK(stats.clipped > 10);
@@ -103,7 +103,7 @@ TEST_CASE(
                  one.front(f.x, f.y) = f.front ? -1 : 0;
                  covered(f.x, f.y) = 1;
              },
-             in::framebuffer<void>{one.depth}, {.keep = in::keep_depth::larger, .load = in::depth_load::clear});
+             in::framebuffer<void>{one.depth}, {.compare = in::depth_compare::greater, .load = in::depth_load::clear});
     const pictures lanes = drawn<in::depth_precision::exact>(m, in::best_isa(), 32, in::serial_executor{});
     CHECK(lanes.depth == one.depth);
     CHECK(lanes.triangle == one.triangle);
@@ -132,7 +132,7 @@ double worst_of_lanes(const glm::vec3 (&corners)[3], float scale, unsigned fewes
     // As often as there are lanes, so that small triangles are assembled together.
     const in::mesh m{{std::begin(corners), std::end(corners)}, {}, std::vector<glm::uvec3>(16, {0, 1, 2})};
     const auto scaled = [&](const in::vertex& v) {
-        return in::placed_vertex<varyings>{
+        return in::vertex_output<varyings>{
             testing_raster::pixel_space{256, 256}(v)*scale,
             {{v.index == 0 ? 1.0f : 0.0f, v.index == 1 ? 1.0f : 0.0f, v.index == 2 ? 1.0f : 0.0f}, 0}};
     };
@@ -232,9 +232,9 @@ struct shade_surface {
 TEST_CASE("The shader at the top of fragment_lanes.hpp shades like one for single pixels") {
     const auto place = [](const in::vertex& v) {
         const glm::vec3& p = v.position;
-        return in::placed_vertex<surface>{seen_from_above(v).clip, {p.z, 0.5f + 0.1f * p.x}};
+        return in::vertex_output<surface>{seen_from_above(v).clip, {p.z, 0.5f + 0.1f * p.x}};
     };
-    const in::draw_options<> options{.keep = in::keep_depth::larger, .load = in::depth_load::clear};
+    const in::draw_options<> options{.compare = in::depth_compare::greater, .load = in::depth_load::clear};
     in::image<float> depth(150, 110), picture(150, 110), expected(150, 110);
     in::draw(rubble(), place, shade_surface{picture}, in::framebuffer<void>{depth}, options);
     in::draw(
@@ -255,15 +255,15 @@ TEST_CASE("The shader at the top of fragment_lanes.hpp shades like one for singl
 
 TEST_CASE("Varyings over lanes may be empty") {
     struct none {};
-    const auto place = [](const in::vertex& v) { return in::placed_vertex<none>{seen_from_above(v).clip, {}}; };
-    in::image<float> depth(150, 110), seen(150, 110, in::empty_depth(in::keep_depth::larger));
+    const auto place = [](const in::vertex& v) { return in::vertex_output<none>{seen_from_above(v).clip, {}}; };
+    in::image<float> depth(150, 110), seen(150, 110, in::empty_depth(in::depth_compare::greater));
     const auto store_depth = [&]<int N>(const in::fragment_lanes<N, none>& f) {
         typename in::fragment_lanes<N, none>::floats value;
         f.depth(value);
         f.store(seen, value);
     };
     in::draw(rubble(), place, store_depth, in::framebuffer<void>{depth},
-             {.keep = in::keep_depth::larger, .load = in::depth_load::clear});
+             {.compare = in::depth_compare::greater, .load = in::depth_load::clear});
     CHECK(seen == depth);
 }
 
@@ -285,7 +285,7 @@ TEST_CASE("A vertex shader over lanes is used where there are lanes, for depth a
     const in::mesh m = rubble();
     int lanes = 0;
     in::image<float> depth(150, 110), expected(150, 110);
-    const in::draw_options<> options{.keep = in::keep_depth::larger, .load = in::depth_load::clear};
+    const in::draw_options<> options{.compare = in::depth_compare::greater, .load = in::depth_load::clear};
     in::draw(m, both_ways{lanes}, in::depth_target{depth}, options);
     in::draw(m, seen_from_above, in::depth_target{expected}, options);
     CHECK(depth == expected);
@@ -296,7 +296,7 @@ namespace {
 /// Passes normals on, one vertex at a time or over lanes.
 struct one_normal {
     auto operator()(const in::vertex& v) const {
-        return in::placed_vertex<glm::vec4>{seen_from_above(v).clip, {v.normal, 0}};
+        return in::vertex_output<glm::vec4>{seen_from_above(v).clip, {v.normal, 0}};
     }
 };
 struct normals_over_lanes : one_normal {
@@ -324,7 +324,7 @@ TEST_CASE("A vertex shader over lanes gets the normals of its vertices") {
             f.store(value, x + 2 * y + 3 * z);
         };
         in::draw(m, place, keep_sum, in::framebuffer<void>{depth},
-                 {.keep = in::keep_depth::larger, .load = in::depth_load::clear});
+                 {.compare = in::depth_compare::greater, .load = in::depth_load::clear});
         return value;
     };
     CHECK(drawn(normals_over_lanes{}) == drawn(one_normal{}));

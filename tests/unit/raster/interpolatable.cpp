@@ -98,7 +98,7 @@ TEST_CASE("A draw that clears depth writes the background color where requested,
     for (const bool has_background : {true, false})
         for (const auto load : {in::depth_load::clear, in::depth_load::keep}) {
             in::image<int> color(100, 90, 7);
-            in::image<float> depth(100, 90, in::empty_depth(in::keep_depth::smaller));
+            in::image<float> depth(100, 90, in::empty_depth(in::depth_compare::less));
             in::framebuffer<int> target{color, depth};
             if (has_background) target.clears_color = true, target.background = 3;
             in::draw(m, place, one, target, {.load = load});

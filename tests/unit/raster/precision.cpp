@@ -29,10 +29,10 @@ struct errors {
     double varying = 0;              ///< largest error, in units in the last place of the largest corner's value
 
     /// @param copies  of the triangle, the first of which is seen; several small ones take another code path than one
-    void measure(const clip_triangle& t, int bits, in::keep_depth keep, std::size_t copies) {
+    void measure(const clip_triangle& t, int bits, in::depth_compare compare, std::size_t copies) {
         const in::mesh m{std::vector<glm::vec3>(3), {}, std::vector<glm::uvec3>(copies, {0, 1, 2})};
         const auto place = [&](const in::vertex& v) {
-            return in::placed_vertex<float>{t.clip[v.index], t.varying[v.index]};
+            return in::vertex_output<float>{t.clip[v.index], t.varying[v.index]};
         };
         glm::dvec2 corner[3];
         double z[3];
@@ -56,7 +56,8 @@ struct errors {
                          static_cast<wide_float>(f.varyings) - truth.varying(f.x, f.y, t.varying, inverse_w);
                      varying = larger(varying, std::abs(static_cast<double>(off)) / last_place);
                  },
-                 in::framebuffer<void>{depth}, {.keep = keep, .load = in::depth_load::clear, .subpixel_bits = bits});
+                 in::framebuffer<void>{depth},
+                 {.compare = compare, .load = in::depth_load::clear, .subpixel_bits = bits});
     }
 };
 
@@ -130,7 +131,7 @@ void check_precision(std::uint64_t seed, int count, bool print) {
             errors found;
             for (int i = 0; i < count * repeats; ++i)
                 found.measure(triangle(kind, w_ratio), i % 2 == 0 ? 8 : 16,
-                              w_ratio > 1 ? in::keep_depth::larger : in::keep_depth::smaller, i % 3 == 0 ? 1 : 16);
+                              w_ratio > 1 ? in::depth_compare::greater : in::depth_compare::less, i % 3 == 0 ? 1 : 16);
             INFO("seed " << seed << ", triangles " << name << ", w ratio " << w_ratio);
             CHECK(found.samples > 500);
             CHECK(found.wrong_depths == 0);
@@ -233,7 +234,7 @@ TEST_CASE("The nearer of two surfaces is visible wherever their depths differ as
 TEST_CASE("Depths of level ground stay in order down to a grazing angle of 0.006 degrees") {
     // 1 m above level ground that reaches from 1 m to 10 km, where it is seen at 0.006 degrees; reversed depth.
     const auto along = [](const in::vertex& v) {
-        return in::placed_vertex<glm::vec2>{{v.position.x, v.position.z - 1, 0.01f, v.position.y},
+        return in::vertex_output<glm::vec2>{{v.position.x, v.position.z - 1, 0.01f, v.position.y},
                                             {v.position.x, v.position.y}};
     };
     const in::mesh m{{{-2e4f, 1, 0}, {2e4f, 1, 0}, {-2e4f, 1e4f, 0}, {2e4f, 1e4f, 0}}, {}, {{0, 1, 3}, {0, 3, 2}}};
@@ -249,7 +250,7 @@ TEST_CASE("Depths of level ground stay in order down to a grazing angle of 0.006
                  worst = larger(worst, std::abs(static_cast<double>(f.varyings.y) * slope - 1));
              },
              in::framebuffer<void>{depth},
-             {.keep = in::keep_depth::larger, .load = in::depth_load::clear, .subpixel_bits = 16});
+             {.compare = in::depth_compare::greater, .load = in::depth_load::clear, .subpixel_bits = 16});
     CHECK(seen == 3 * 4096);  // all rows below the horizon
     // The first row lies half a pixel below the horizon; snapping moves an edge by up to 2^-17 pixels.
     CHECK(worst < 1e-4);

@@ -20,20 +20,20 @@ namespace {
 
 /// Unbounded long waves with a label, a reflectivity and a speckle of their own.
 struct dunes {
-    static constexpr sb::type_properties kind{sb::own_type(3), "dunes", 0.8f, {.looks = 4}};
+    static constexpr sb::type_properties kind{sb::user_type(3), "dunes", 0.8f, {.looks = 4}};
     double height = 0.2;
 
     void row(const sb::scanline& line, std::span<float> heights) const {
         for (std::size_t i = 0; i < heights.size(); ++i)
             heights[i] = static_cast<float>(height * std::sin(0.9 * line.x(i) + 0.2 * line.y)) *
-                         sb::carried(6.8, line.grid_spacing);
+                         sb::band_limit_gain(6.8, line.grid_spacing);
     }
     sb::height_range range() const { return {-height, height}; }
 };
 
 /// A level sheet.
 struct ice {
-    static constexpr sb::type_properties kind{sb::own_type(0), "ice", 0.9f, {}};
+    static constexpr sb::type_properties kind{sb::user_type(0), "ice", 0.9f, {}};
     void row(const sb::scanline&, std::span<float> heights) const { std::fill(heights.begin(), heights.end(), 0.0f); }
     sb::height_range range() const { return {0, 0}; }
 };
@@ -43,11 +43,11 @@ struct stripes {
     void row(const sb::scanline& line, std::span<float> heights, std::span<sb::type> types) const {
         std::fill(heights.begin(), heights.end(), 0.0f);
         for (std::size_t i = 0; i < types.size(); ++i)
-            types[i] = sb::own_type(in::numeric::floor_to_int(line.x(i)) & 1 ? 1 : 0);
+            types[i] = sb::user_type(in::numeric::floor_to_int(line.x(i)) & 1 ? 1 : 0);
     }
     sb::height_range range() const { return {0, 0}; }
     std::vector<sb::type_properties> legend() const {
-        return {{sb::own_type(0), "dark", 0.1f, {}}, {sb::own_type(1), "bright", 0.9f, {}}};
+        return {{sb::user_type(0), "dark", 0.1f, {}}, {sb::user_type(1), "bright", 0.9f, {}}};
     }
 };
 
@@ -88,7 +88,7 @@ TEST_CASE("An own seabed is drawn without bounds, with its label, its reflectivi
     for (const double x : {120.0, 1e6}) {
         from.position.x = x;
         const auto frame = in::render(s, from);
-        const auto label = static_cast<std::uint8_t>(sb::own_type(3));
+        const auto label = static_cast<std::uint8_t>(sb::user_type(3));
         for (const std::uint8_t seabed : frame.labels.seabed.pixels()) REQUIRE(seabed == label);
         REQUIRE(frame.labels.legend.size() == 1);
         CHECK(frame.labels.legend[0] == dunes::kind);
@@ -111,9 +111,9 @@ TEST_CASE("The reflectivity of an own label scales the picture; the scene's entr
     const double sand = mean();
     s.seabed = ice{};
     CHECK(mean() == Approx(2 * sand).epsilon(1e-5));
-    s.bottom[sb::index_of(sb::own_type(0))] = {0.45f};
+    s.bottom[sb::index_of(sb::user_type(0))] = {0.45f};
     CHECK(mean() == Approx(sand).epsilon(1e-6));
-    s.bottom[sb::index_of(sb::own_type(0))] = {-2};
+    s.bottom[sb::index_of(sb::user_type(0))] = {-2};
     CHECK_THROWS_WITH(mean(), ContainsSubstring("scene.bottom[64].reflectivity is -2"));
 }
 
@@ -134,13 +134,13 @@ TEST_CASE("A label has one set of properties in a scene, and those of the librar
         s.seabed = bottom;
         in::render(s, in::overhead{.size = {8, 8}});
     };
-    const painted dim{{sb::own_type(0), "dim", 0.2f}}, bright{{sb::own_type(0), "bright", 0.9f}},
-        other{{sb::own_type(1), "bright", 0.9f}};
+    const painted dim{{sb::user_type(0), "dim", 0.2f}}, bright{{sb::user_type(0), "bright", 0.9f}},
+        other{{sb::user_type(1), "bright", 0.9f}};
     CHECK_NOTHROW(draw(sb::blend{.first = dim, .second = other}));
     CHECK_NOTHROW(draw(sb::blend{.first = dim, .second = dim}));
     CHECK_THROWS_WITH(draw(sb::blend{.first = dim, .second = bright}),
                       ContainsSubstring("type_properties.label of 'bright' is 64"));
-    CHECK_THROWS_WITH(draw(painted{{sb::type::sand, "bright sand", 0.9f}}), ContainsSubstring("own_type(n)"));
+    CHECK_THROWS_WITH(draw(painted{{sb::type::sand, "bright sand", 0.9f}}), ContainsSubstring("user_type(n)"));
     CHECK_NOTHROW(draw(painted{sb::properties_of(sb::type::sand)}));
 }
 
@@ -162,7 +162,7 @@ TEST_CASE("Own labels reach side-scan pictures, and speckle takes their law from
     const in::side_scan swath{.ping_spacing = 0.2f, .pings = 200, .first_range = 12, .range = 20, .bins = 200};
     const auto quiet = in::render(s, swath);
     CHECK(quiet.labels.legend.size() == 2);
-    CHECK(quiet.labels.seabed(100, 100) == static_cast<std::uint8_t>(sb::own_type(3)));
+    CHECK(quiet.labels.seabed(100, 100) == static_cast<std::uint8_t>(sb::user_type(3)));
     const auto noisy = in::with_speckle(quiet, {.along_track = 0, .across_track = 0});
     double sum = 0, square = 0;
     for (std::size_t i = 0; i < noisy.image.size(); ++i) {
@@ -180,8 +180,8 @@ TEST_CASE("A seabed of several own labels writes one to each pixel") {
     const auto frame = in::render(s, in::overhead{.altitude = 4, .size = {128, 128}});
     int dark = 0, bright = 0;
     for (const std::uint8_t t : frame.labels.seabed.pixels()) {
-        dark += t == static_cast<std::uint8_t>(sb::own_type(0));
-        bright += t == static_cast<std::uint8_t>(sb::own_type(1));
+        dark += t == static_cast<std::uint8_t>(sb::user_type(0));
+        bright += t == static_cast<std::uint8_t>(sb::user_type(1));
     }
     CHECK(dark + bright == 128 * 128);
     CHECK(dark > 4000);
@@ -191,15 +191,15 @@ TEST_CASE("A seabed of several own labels writes one to each pixel") {
 
 TEST_CASE("Own seabeds are layered, sculpted and sampled, and carry targets, as the library's do") {
     const sb::mixed bed{.base = stripes{}, .layers = {{dunes{}, sb::disc{{0, 0}, 5}}}};
-    CHECK(sb::at(bed, 0, 0).kind == sb::own_type(3));
-    CHECK(sb::at(bed, 30.5, 0).kind == sb::own_type(0));
+    CHECK(sb::at(bed, 0, 0).kind == sb::user_type(3));
+    CHECK(sb::at(bed, 30.5, 0).kind == sb::user_type(0));
     CHECK(bed.legend().size() == 3);
     const sb::sculpted levelled{.ground = dunes{}, .edits = {sb::flatten{.centre = {0, 0}, .radius = 2, .level = 1}}};
     CHECK(sb::at(levelled, 0, 0).height == Approx(1));
-    CHECK(sb::at(levelled, 0, 0).kind == sb::own_type(3));
+    CHECK(sb::at(levelled, 0, 0).kind == sb::user_type(3));
     const auto field = sb::sample(dunes{}, {.width = 8, .height = 8});
-    CHECK(field.fallback == sb::own_type(3));
-    REQUIRE(field.own_types.size() == 1);
+    CHECK(field.fallback == sb::user_type(3));
+    REQUIRE(field.user_types.size() == 1);
     CHECK(sb::any(field).legend()[0].name == "dunes");
     in::scene s;
     s.seabed = dunes{};
@@ -280,7 +280,7 @@ TEST_CASE("An own label that a seabed writes but does not list is refused: it wo
     struct contradictory : stripes {
         std::vector<sb::type_properties> legend() const {
             auto all = stripes::legend();
-            all.push_back({sb::own_type(0), "pale", 0.7f, {}});
+            all.push_back({sb::user_type(0), "pale", 0.7f, {}});
             return all;
         }
     };
@@ -312,8 +312,8 @@ TEST_CASE("The registry has one row per label, and own labels begin at 64") {
         CHECK(sb::index_of(sb::built_in_types[i].label) == i);
         for (std::size_t j = 0; j < i; ++j) CHECK(sb::built_in_types[i].name != sb::built_in_types[j].name);
     }
-    CHECK(sb::index_of(sb::own_type(0)) == 64);
-    CHECK(sb::index_of(sb::own_type(190)) == 254);
-    CHECK_THROWS_AS(sb::own_type(191), in::invalid_input);
-    CHECK_THROWS_AS(sb::own_type(-1), in::invalid_input);
+    CHECK(sb::index_of(sb::user_type(0)) == 64);
+    CHECK(sb::index_of(sb::user_type(190)) == 254);
+    CHECK_THROWS_AS(sb::user_type(191), in::invalid_input);
+    CHECK_THROWS_AS(sb::user_type(-1), in::invalid_input);
 }

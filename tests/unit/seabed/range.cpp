@@ -40,8 +40,8 @@ TEST_CASE("Heights stay within the stated range, which is at most ten times too 
     check(sb::ripples{.second = {.wavelength = 0.3f, .steepness = 0.1f}}, 3);
     check(sb::mud{}, 10);
     check(sb::mud{.surface = {.rms = 0.001f}, .density = 0}, 10);
-    check(sb::mud{.pock_depth = 5, .pock_share = 0}, 10);
-    check(sb::mud{.mound_height = 5, .pock_share = 1}, 10);
+    check(sb::mud{.pock_depth = 5, .pock_fraction = 0}, 10);
+    check(sb::mud{.mound_height = 5, .pock_fraction = 1}, 10);
     check(sb::mud{.density = 0, .trawls = {.density = 0.1f}}, 10);
     check(sb::rock{}, 10);
     check(sb::rock{.relief = 2, .fracture = 1, .surface = {.rms = 0}}, 10);

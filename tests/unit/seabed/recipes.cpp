@@ -358,7 +358,7 @@ TEST_CASE("Mounds and pock marks of mud have the density, height and volume of t
                          .size = 0.4f,
                          .mound_height = 0.05f,
                          .pock_depth = 0.1f,
-                         .pock_share = share,
+                         .pock_fraction = share,
                          .seed = 6};
     const sb::grid around_origin{.origin = {-70, -70}, .spacing = 0.09, .width = 1500, .height = 1500};
     const auto m = moments_of(sb::sample(recipe, around_origin).heights);

@@ -50,7 +50,7 @@ TEST_CASE("Each field of mud, its trawl marks and rock is refused by name") {
     check_fields<sb::mud>(
         "mud.", {}, prepare_any,
         {FIELD(density, below_0), FIELD(size, outside(0, most)), FIELD(mound_height, outside(0, most)),
-         FIELD(pock_depth, outside(0, most)), FIELD(pock_share, outside(0, 1))});
+         FIELD(pock_depth, outside(0, most)), FIELD(pock_fraction, outside(0, 1))});
     check_fields<sb::trawl_marks>(
         "trawl_marks.", {.density = 0.05f}, [](const sb::trawl_marks& t) { prepare_any(sb::mud{.trawls = t}); },
         {FIELD(density, outside(0, 0.5)), FIELD(depth, outside(0, most)), FIELD(width, outside(0, most)),

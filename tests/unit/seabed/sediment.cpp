@@ -18,10 +18,10 @@ TEST_CASE("Sediments are found by name and by grain size") {
     CHECK(sb::sediment_of_phi(1.4f) == in::sediment::medium_sand);
     CHECK(sb::sediment_of_phi(40) == in::sediment::silty_clay);
     CHECK_THROWS_AS(sb::sediment_of_phi(std::nanf("")), in::invalid_input);
-    for (const sb::sediment_facts& row : sb::sediments) {
+    for (const sb::sediment_parameters& row : sb::sediments) {
         const in::sediment s = sb::sediment_of(row.name);
         CHECK(sb::type_of(s) == row.label);
-        CHECK(&sb::facts_of(s) == &row);
+        CHECK(&sb::parameters_of(s) == &row);
         CHECK(sb::sediment_of_phi(row.phi) == s);
     }
     CHECK(sb::type_count == 16);
@@ -33,7 +33,7 @@ TEST_CASE("Sediments are found by name and by grain size") {
 TEST_CASE("A value that names no sediment is refused") {
     for (const int value : {0, 3, 16, 255}) {
         CAPTURE(value);
-        CHECK_THROWS_WITH(sb::facts_of(static_cast<sb::sediment>(value)),
+        CHECK_THROWS_WITH(sb::parameters_of(static_cast<sb::sediment>(value)),
                           "sediment is " + std::to_string(value) + ", expected an enumerator of seabed::sediment");
     }
 }
@@ -41,7 +41,7 @@ TEST_CASE("A value that names no sediment is refused") {
 TEST_CASE("The relief of a sediment is that of its spectrum: 2 pi w2 K^-1.25 / 1.25 at a metre") {
     const double w2 = 0.004446, k = 2 * 3.14159265358979 / 100;
     const double expected = std::sqrt(2 * 3.14159265358979 * w2 * std::pow(k, -1.25) / 1.25) / 100;
-    CHECK(static_cast<double>(sb::facts_of(in::sediment::medium_sand).rms()) == Approx(expected).epsilon(1e-3));
+    CHECK(static_cast<double>(sb::parameters_of(in::sediment::medium_sand).rms()) == Approx(expected).epsilon(1e-3));
     // The same spectrum reaches further than a metre: the variance of all that is shorter than L grows as L^1.25.
     const sb::roughness rough = sb::roughness_of(in::sediment::medium_sand);
     const auto length = static_cast<double>(rough.longest);
@@ -59,17 +59,18 @@ TEST_CASE("A sediment's name sets relief, brightness and speckle together") {
     };
     const in::scene scene;
     const in::seabed_speckle speckle;
-    for (const sb::sediment_facts& row : sb::sediments) {
+    for (const sb::sediment_parameters& row : sb::sediments) {
         const in::sediment s = sb::sediment_of(row.name);
         const auto field = sample(s);
         const sb::type type = field.types.empty() ? field.fallback : field.types(3, 5);
         REQUIRE(type == sb::type_of(s));
         const auto index = static_cast<std::size_t>(type);
-        const double level = static_cast<double>(sb::facts_of(s).level - sb::facts_of(in::sediment::medium_sand).level);
+        const double level =
+            static_cast<double>(sb::parameters_of(s).level - sb::parameters_of(in::sediment::medium_sand).level);
         CHECK(10 * std::log10(static_cast<double>(scene.bottom[index].reflectivity) / 0.45) ==
               Approx(level).margin(1e-3));
-        CHECK(speckle.bottom[index].texture == sb::facts_of(s).texture);
-        CHECK(speckle.bottom[index].steady == sb::facts_of(s).steady);
+        CHECK(speckle.bottom[index].texture == sb::parameters_of(s).texture);
+        CHECK(speckle.bottom[index].steady == sb::parameters_of(s).steady);
     }
     CHECK(sb::rippled(in::sediment::coarse_sand).kind == sb::type::coarse_sand);
 }

@@ -258,7 +258,7 @@ TEST_CASE("A heightfield on a grid agrees with rays, for its own points and for 
                     const auto grid = in::regular_grid_of(*bottom, in::shared_mesh::grid_error);
                     REQUIRE(grid);
                     shadow::caster swept = lit::caster_of(*bottom);
-                    swept.may_skip = shadow::skip::facing_its_own;
+                    swept.may_skip = shadow::skip::facing_self;
                     swept.grid = &*grid;
                     const lit::point_list own = bottom.facing(200, 7);
                     lit::point_list others = own.detached();
@@ -278,15 +278,15 @@ TEST_CASE("A heightfield on a grid agrees with rays, for its own points and for 
 TEST_CASE("Points that face away are named after the first caster that blocks them, be it the one that they lie on") {
     in::serial_executor serial;
     const in::mesh roof = box({40, 40, 0.1}, {0, 0, 4});
-    for (const auto& [mesh, skip] : {std::pair(rough(), shadow::skip::facing_its_own),
+    for (const auto& [mesh, skip] : {std::pair(rough(), shadow::skip::facing_self),
                                      std::pair(to_mesh(in::sphere{.radius = 0.5f}), shadow::skip::facing)})
         for (const double elevation : {3.0, 10.0, 20.0}) {
             const shadow::directional_light light = parallel(20, elevation);
             const lit::mesh own(mesh, light);
-            const lit::point_list lit_list = own.facing(500, 3), list = own.averted(500, 3);
-            shadow::points averted = list;
-            averted.face_light = false;
-            const shadow::points at[] = {lit_list, averted};
+            const lit::point_list lit_list = own.facing(500, 3), list = own.back_facing(500, 3);
+            shadow::points back_facing = list;
+            back_facing.face_light = false;
+            const shadow::points at[] = {lit_list, back_facing};
             shadow::caster casters[] = {lit::caster_of(*own), lit::caster_of(roof)};
             CAPTURE(elevation, list.size());
             const auto tested = [&] {

@@ -24,7 +24,7 @@ class swept_seabed {
           grid_(in::regular_grid_of(*surface, in::shared_mesh::grid_error)) {
         REQUIRE(grid_);
         caster_ = lit::caster_of(*surface);
-        caster_.may_skip = shadow::skip::facing_its_own;
+        caster_.may_skip = shadow::skip::facing_self;
         caster_.grid = &*grid_;
     }
     const shadow::caster& caster() const { return caster_; }
@@ -131,7 +131,7 @@ TEST_CASE("Few points of a seabed need a triangle test, and all agree with rays"
                                            bottom.surface.corner(triangle, 2), p);
                     };
                 };
-                wrong += caster.blocks_own(own[i], decide_among(own[i], own.triangle(i))) !=
+                wrong += caster.blocks_self(own[i], decide_among(own[i], own.triangle(i))) !=
                                  bottom.surface.is_blocked(own[i], own.triangle(i))
                              ? 1
                              : 0;
@@ -180,16 +180,16 @@ TEST_CASE("Points close to the edges of cells agree with rays where vertices lie
                 glm::dot(surface.normal(triangle), surface.toward({})) / glm::length(surface.normal(triangle));
             if (!(sine > 1e-4)) continue;
             // Within a few millionths of a step of a corner or an edge.
-            const double near = std::exp2(between(-19, -13)), v = i % 2 == 0 ? near : between(near, 1 - 2 * near);
+            const double tiny = std::exp2(between(-19, -13)), v = i % 2 == 0 ? tiny : between(tiny, 1 - 2 * tiny);
             const int corner = static_cast<int>(random.below(3));
             const glm::dvec3 a = surface.corner(triangle, corner), b = surface.corner(triangle, (corner + 1) % 3),
                              c = surface.corner(triangle, (corner + 2) % 3);
-            points.add(a + near * (b - a) + v * (c - a), 0, triangle);
-            points.add(a + near * (b - a) + v * (c - a) + glm::dvec3(0, 0, 1e-3));
+            points.add(a + tiny * (b - a) + v * (c - a), 0, triangle);
+            points.add(a + tiny * (b - a) + v * (c - a) + glm::dvec3(0, 0, 1e-3));
         }
         if (points.size() == 0) continue;
         shadow::caster caster = lit::caster_of(ground);
-        caster.may_skip = shadow::skip::facing_its_own;
+        caster.may_skip = shadow::skip::facing_self;
         caster.grid = &*grid;
         const auto built = exact.build(std::span(&caster, 1), light, {points.box()}, serial);
         CAPTURE(number);

@@ -177,7 +177,7 @@ TEST_CASE("pcf reports the first caster that blocks more than half of the light"
     CHECK(soft > 50);
 }
 
-TEST_CASE("A point in a penumbra is lit by the visible fraction of the disc, under parallel and near light") {
+TEST_CASE("A point in a penumbra is lit by the visible fraction of the disc, under parallel and point lights") {
     // The far edge of a wide wall cuts the disc through its middle at the edge of the hard shadow.
     const in::mesh wall = in::transformed(to_mesh(in::cube{.size = {1, 30, 1}}), at({0, 0, 0.5}));
     const shadow::caster casters[] = {caster_of(wall)};

@@ -250,7 +250,7 @@ TEST_CASE("A window close to the first return of a pitched ping holds that part 
         for (int b = 0; b < 60; ++b) {
             CAPTURE(pitch, b);
             CHECK(window.image(b, 0) == Approx(whole.image(60 + b, 0)).epsilon(1e-3));
-            CHECK(window.labels.shadow(b, 0) == in::labels::is_lit);
+            CHECK(window.labels.shadow(b, 0) == in::labels::no_shadow);
         }
     }
 }
@@ -362,7 +362,7 @@ TEST_CASE("A crest in front of a window shades it, and a target in front of the 
         }
         const int behind_crest = 4;  // 12.5 m away, 11.5 m across
         CHECK(window.labels.shadow(behind_crest, 0) == (has_target ? 1 : in::labels::by_seabed));
-        CHECK(window.labels.shadow(20, 0) == (has_target ? 1 : in::labels::is_lit));  // 14.1 m away
+        CHECK(window.labels.shadow(20, 0) == (has_target ? 1 : in::labels::no_shadow));  // 14.1 m away
     }
 }
 
@@ -386,7 +386,7 @@ TEST_CASE("A bin that shows a target is not in shadow") {
     int of_targets = 0;
     for (int b = 0; b < 100; ++b)
         if (heard.labels.instance(b, 0) != 0) {
-            CHECK(heard.labels.shadow(b, 0) == in::labels::is_lit);
+            CHECK(heard.labels.shadow(b, 0) == in::labels::no_shadow);
             ++of_targets;
         }
     CHECK(of_targets > 5);

@@ -118,7 +118,7 @@ TEST_CASE("Shadows are long at grazing angles of up to a degree and vanish towar
         int dark = 0;
         for (std::size_t i = 0; i < frame.image.size(); ++i) {
             REQUIRE((frame.image.pixels()[i] >= 0 && frame.image.pixels()[i] <= 1));
-            dark += frame.labels.shadow.pixels()[i] != in::labels::is_lit;
+            dark += frame.labels.shadow.pixels()[i] != in::labels::no_shadow;
         }
         // A shadow of h / tan(grazing), up to the picture's end.
         if (degrees <= 1) CHECK(dark > 500);
@@ -147,7 +147,7 @@ TEST_CASE("Ground of two triangles 20000 km wide gives the same picture at every
 }
 
 TEST_CASE("A picture of 4096 x 4096 pixels is the same in 262144 tiles and in 4096", "[.slow]") {
-    // Under a near light the policy decides every point, and tests them all together.
+    // Under a point light the policy decides every point, and tests them all together.
     in::scene s;
     s.seabed = in::seabed::ripples{};
     for (int i = 0; i < 7; ++i)

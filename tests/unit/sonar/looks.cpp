@@ -94,13 +94,15 @@ TEST_CASE("automatic_display() makes the given fractions of the pixels black and
     in::image<float> ramp(100, 100);
     for (int i = 0; i < 10000; ++i) ramp.pixels()[static_cast<std::size_t>(i)] = 1 + static_cast<float>(i);
     for (const auto scale : {in::display_scale::power, in::display_scale::amplitude, in::display_scale::decibels}) {
-        const auto picture = ramp | in::automatic_display{.scale = scale, .black = 0.05f, .white = 0.2f};
+        const auto picture =
+            ramp | in::automatic_display{.scale = scale, .black_fraction = 0.05f, .white_fraction = 0.2f};
         int black = 0, white = 0;
         for (const float v : picture.pixels()) black += v == 0, white += v == 1;
         CHECK(black == Approx(500).margin(2));
         CHECK(white == Approx(2000).margin(2));
     }
-    const auto linear = ramp | in::automatic_display{.scale = in::display_scale::power, .black = 0, .white = 0};
+    const auto linear =
+        ramp | in::automatic_display{.scale = in::display_scale::power, .black_fraction = 0, .white_fraction = 0};
     CHECK(linear(0, 0) == 0);
     CHECK(linear(99, 99) == 1);
     CHECK(linear(0, 50) == Approx(0.5).margin(1e-3));
@@ -112,10 +114,10 @@ TEST_CASE("automatic_display() takes constant, empty and non-finite pictures") {
     CHECK((in::image<float>() | in::automatic_display{}).size() == 0);
     in::image<float> mixed(4, 1, 1.0f);
     mixed(0, 0) = positive_infinity, mixed(1, 0) = not_a_number, mixed(2, 0) = 0;
-    const auto seen = mixed | in::automatic_display{.black = 0, .white = 0};
+    const auto seen = mixed | in::automatic_display{.black_fraction = 0, .white_fraction = 0};
     CHECK(seen(0, 0) == 1);
     CHECK(seen(1, 0) == 0);
-    CHECK_THROWS_AS(mixed | in::automatic_display{.black = 0.6f}, in::invalid_input);
+    CHECK_THROWS_AS(mixed | in::automatic_display{.black_fraction = 0.6f}, in::invalid_input);
     // Echoes on even ground that are fewer than the pixels to be white.
     in::image<float> few(200, 1, 1.0f);
     few(7, 0) = 50;
@@ -281,7 +283,7 @@ TEST_CASE("A tone has the given level, lengths and fraction of patches") {
     CHECK(correlation(line(streaks, {1, 0}), 25) == Approx(lattice_correlation(0.5)).margin(0.1));
     for (const float fraction : {0.1f, 0.5f, 0.8f}) {
         double inside = 0;
-        for (const double level : line({.patches = 6, .patch_size = 3, .patch_share = fraction}, {1.1, 2.3}))
+        for (const double level : line({.patches = 6, .patch_size = 3, .patch_coverage = fraction}, {1.1, 2.3}))
             inside += level / 6 / 40000;
         CHECK(inside == Approx(fraction).margin(0.02));
     }
@@ -330,9 +332,9 @@ TEST_CASE("A tone is refused for recordings without labels, and for pings that a
     CHECK_THROWS_WITH(in::with_tone(clean, track, rig, tone), ContainsSubstring("track[2].position.y is 1e+13"));
     track[2].position.y = static_cast<double>(not_a_number);
     CHECK_THROWS_WITH(in::with_tone(clean, track, rig, tone), ContainsSubstring("track[2].position.y is nan"));
-    auto far = clean;
-    far.rows.first = std::int64_t{1} << 32;
-    CHECK_THROWS_WITH(in::with_tone(far, rig, tone), ContainsSubstring("rows.first is 4294967296"));
+    auto unnumbered = clean;
+    unnumbered.rows.first = std::int64_t{1} << 32;
+    CHECK_THROWS_WITH(in::with_tone(unnumbered, rig, tone), ContainsSubstring("rows.first is 4294967296"));
     CHECK_THROWS_WITH(in::with_tone(clean, std::span(track).first(3), rig, tone),
                       "track.size() is 3, expected 4, the number of the recording's rows");
 }
@@ -362,7 +364,7 @@ TEST_CASE("A tone lies abreast of each ping of a track, below the sonar's own he
                                 ping.position.y + ground * std::sin(ping.yaw)};
             CHECK(decibels(toned.image(x, y) / clean.image(x, y)) == Approx(in::level_of(tone, at)).margin(1e-3));
         }
-    const auto flipped = in::with_tone(in::upside_down(clean), track, rig, tone);
+    const auto flipped = in::with_tone(in::flipped_vertically(clean), track, rig, tone);
     CHECK(flipped.image(3, 19) == toned.image(3, 0));
     const auto batch = std::span<const in::ping>(track).subspan(8, 6);  // of a longer line
     auto part = in::record(scene, batch, rig);
@@ -409,7 +411,7 @@ TEST_CASE(
     CHECK(std::equal(once.image.pixels().begin(), once.image.pixels().end(), pooled.image.pixels().begin()));
     CHECK_THROWS_AS(in::level_of({.drift = not_a_number}, {0, 0}), in::invalid_input);
     CHECK_THROWS_AS(in::level_of({.drift = 1, .drift_length = 0}, {0, 0}), in::invalid_input);
-    CHECK_THROWS_AS(in::level_of({.patch_share = 0}, {0, 0}), in::invalid_input);
+    CHECK_THROWS_AS(in::level_of({.patch_coverage = 0}, {0, 0}), in::invalid_input);
     CHECK_THROWS_AS(in::level_of({.octaves = 9}, {0, 0}), in::invalid_input);
     CHECK(std::isfinite(in::level_of({.drift = 30, .streaks = 30, .patches = 30}, {1e12, -1e12})));
 }
@@ -448,12 +450,12 @@ TEST_CASE("The absorption of an instrument is that of sea water at its frequency
 TEST_CASE("Instruments are found by name; speckle lengths follow from pulse, beam or aperture") {
     for (const in::instrument& i : in::instruments::all) {
         CHECK(in::instrument_named(i.name).frequency == i.frequency);
-        CHECK(i.grain_across() == Approx(0.5234 * static_cast<double>(i.range_resolution)));
+        CHECK(i.speckle_length_across() == Approx(0.5234 * static_cast<double>(i.range_resolution)));
         CHECK(i.range > 0);
     }
     const in::instrument& towed = in::instruments::side_scan_450;
     CHECK(towed.along_track(100) == Approx(100 * static_cast<double>(towed.beamwidth)));
-    CHECK(towed.grain_along(100) ==
+    CHECK(towed.speckle_length_along(100) ==
           Approx(towed.horizontal().speckle_length(100, 1500.0 / static_cast<double>(towed.frequency))).epsilon(1e-6));
     const in::instrument& aperture = in::instruments::synthetic_aperture;
     CHECK(aperture.along_track(20) == aperture.along_track(150));

@@ -71,7 +71,7 @@ TEST_CASE("A point behind a cube is in that cube's shadow, to a micrometre, anyw
     }
 }
 
-TEST_CASE("A near light casts shadows; an occlusion test outlives its scene") {
+TEST_CASE("A point light casts shadows; an occlusion test outlives its scene") {
     const auto shade = [] {
         return in::occlusion_of(two_cubes({0, 0, 0}), in::shadow::point_light{{-2, 0, 2}}, {{{-5, -5, -1}, {5, 5, 3}}});
     }();
@@ -93,7 +93,7 @@ TEST_CASE("A wall of seabed outside of the bounds shades points within height / 
         const std::vector<glm::dvec3> points{{tip, 0.3, 1e-3}};
         const auto found = shade.test(points);
         CAPTURE(tip);
-        CHECK(found.shadow[0] == (tip < 0 ? in::labels::by_seabed : in::labels::is_lit));
+        CHECK(found.shadow[0] == (tip < 0 ? in::labels::by_seabed : in::labels::no_shadow));
     }
     // Without a reach beyond the bounds the wall casts no shadow.
     const auto blind =
@@ -101,7 +101,7 @@ TEST_CASE("A wall of seabed outside of the bounds shades points within height / 
     CHECK(blind.test(std::vector<glm::dvec3>{{-0.5, 0.3, 1e-3}}).lit[0] == 1);
 }
 
-TEST_CASE("A wall of seabed outside of the bounds shades points of a near light, by similar triangles") {
+TEST_CASE("A wall of seabed outside of the bounds shades points of a point light, by similar triangles") {
     in::scene s;
     s.seabed = wall();
     const auto label = [&](double height, double x) {
@@ -112,7 +112,7 @@ TEST_CASE("A wall of seabed outside of the bounds shades points of a near light,
     // 2 m before the wall of 1 m, a light at 1.2 m casts a shadow that ends 10 m behind it, one at 0.9 m one without
     // end.
     CHECK(label(1.2, -0.5) == in::labels::by_seabed);
-    CHECK(label(1.2, 0.5) == in::labels::is_lit);
+    CHECK(label(1.2, 0.5) == in::labels::no_shadow);
     CHECK(label(0.9, 0.5) == in::labels::by_seabed);
 }
 
@@ -191,8 +191,8 @@ TEST_CASE("A point has a shadow's label where less than half of the light arrive
                              {{{-9, -9, -1}, {9, 9, 3}}}, glass{through});
         const auto found = shade.test(std::vector<glm::dvec3>{{-0.6, 0, 0}, {2.2, 0, 0}});
         CHECK(found.lit == std::vector<float>{1, through});
-        CHECK(found.shadow[0] == in::labels::is_lit);
-        CHECK(found.shadow[1] == (through < 0.5f ? 2 : in::labels::is_lit));
+        CHECK(found.shadow[0] == in::labels::no_shadow);
+        CHECK(found.shadow[1] == (through < 0.5f ? 2 : in::labels::no_shadow));
     }
 }
 

@@ -15,7 +15,7 @@ using single_pings::cross_sections;
 using single_pings::level_ground;
 using single_pings::one_metre;
 
-TEST_CASE("Row i is ping i in every recording, the first on top; upside_down turns rows, labels and numbers") {
+TEST_CASE("Row i is ping i in every recording, the first on top; flipped_vertically turns rows, labels and numbers") {
     in::scene s;
     s.seabed = in::seabed::ripples{};
     s.add(in::cube{}, {.position = {10, 1.5, 0.5}}, "cube");
@@ -27,13 +27,13 @@ TEST_CASE("Row i is ping i in every recording, the first on top; upside_down tur
     CHECK(drawn.labels.instance == recorded.labels.instance);
     CHECK(drawn.labels.targets[0].box.y0 == 10);
     CHECK((drawn.rows.first == 0 && drawn.rows.step == 1));
-    const auto turned = in::upside_down(drawn);
+    const auto turned = in::flipped_vertically(drawn);
     CHECK(turned.labels.targets[0].box.y0 == 40 - 10 - drawn.labels.targets[0].box.height());
     CHECK((turned.rows.first == 39 && turned.rows.step == -1));
     CHECK(std::equal(turned.image.row(39).begin(), turned.image.row(39).end(), drawn.image.row(0).begin()));
     // Speckle follows the numbers.
     const in::seabed_speckle speckle{.seed = 3};
-    CHECK(in::upside_down(in::with_speckle(drawn, speckle)).image == in::with_speckle(turned, speckle).image);
+    CHECK(in::flipped_vertically(in::with_speckle(drawn, speckle)).image == in::with_speckle(turned, speckle).image);
 }
 
 TEST_CASE("Speckle of both sides in one picture is that of each side") {

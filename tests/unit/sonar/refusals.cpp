@@ -106,7 +106,7 @@ TEST_CASE("Every view of a scene refuses each field of a pose and a material by 
 TEST_CASE("Each field of a seabed's own properties is refused by name") {
     static_assert(members<in::seabed::type_properties>() == 4 && members<in::speckle_law>() == 3);
     struct shelf {
-        in::seabed::type_properties kind{in::seabed::own_type(0), "shelf"};
+        in::seabed::type_properties kind{in::seabed::user_type(0), "shelf"};
         struct sampler {
             void row(const in::seabed::scanline&, std::span<float> heights) const {
                 std::fill(heights.begin(), heights.end(), 0.0f);
@@ -116,7 +116,7 @@ TEST_CASE("Each field of a seabed's own properties is refused by name") {
         sampler prepare() const { return {}; }
     };
     in::scene s = small_scene();
-    const in::seabed::type_properties good{in::seabed::own_type(0), "shelf"};
+    const in::seabed::type_properties good{in::seabed::user_type(0), "shelf"};
     check_fields<in::seabed::type_properties>("type_properties.", good,
                                               [&](const in::seabed::type_properties& kind) {
                                                   s.seabed = shelf{kind};
@@ -285,9 +285,9 @@ TEST_CASE("with_speckle() refuses each field of a speckle by name") {
 
 TEST_CASE("A gap between two pictures leaves room for their columns") {
     const in::image<float> picture(6, 4);
-    CHECK(in::beside(picture, picture, 3).width() == 15);
+    CHECK(in::side_by_side(picture, picture, 3).width() == 15);
     for (const int gap : {-1, std::numeric_limits<int>::max(), std::numeric_limits<int>::max() - 11})
-        CHECK_THROWS_WITH(in::beside(picture, picture, gap), ContainsSubstring("gap is"));
+        CHECK_THROWS_WITH(in::side_by_side(picture, picture, gap), ContainsSubstring("gap is"));
 }
 
 TEST_CASE("Filters of recordings refuse each field by name") {
@@ -316,7 +316,7 @@ TEST_CASE("Filters of recordings refuse each field by name") {
                                       {FIELD(white, not_above_0), FIELD(range, outside(0, 400))});
     check_fields<in::automatic_display>(
         "automatic_display.", {}, use,
-        {FIELD(scale, {3, 99}), FIELD(black, outside(0, 0.49)), FIELD(white, outside(0, 0.49))});
+        {FIELD(scale, {3, 99}), FIELD(black_fraction, outside(0, 0.49)), FIELD(white_fraction, outside(0, 0.49))});
 }
 
 TEST_CASE("with_tone() refuses each field of a tone by name") {
@@ -328,7 +328,7 @@ TEST_CASE("with_tone() refuses each field of a tone by name") {
         {FIELD(drift, outside(0, 30)), FIELD(drift_length, outside(0, 1e9)), FIELD(octaves, outside_whole(1, 8)),
          FIELD(streaks, outside(0, 30)), FIELD(streak_width, outside(0, 1e9)), FIELD(streak_length, outside(0, 1e9)),
          FIELD(direction, not_an_angle), FIELD(patches, outside(-30, 30)), FIELD(patch_size, outside(0, 1e9)),
-         FIELD(patch_share, outside(0.01, 0.99))});
+         FIELD(patch_coverage, outside(0.01, 0.99))});
     check_fields<in::side_scan>(
         "side_scan.", small_side_scan, [&](const in::side_scan& rig) { (void)in::with_tone(heard, rig, {.drift = 1}); },
         {FIELD(altitude, not_finite), FIELD(ping_spacing, not_above_0), FIELD(range, outside(0, 1e5))});
@@ -366,7 +366,7 @@ TEST_CASE("settings_for() refuses budgets and probes by name") {
                                         FIELD(height, {nan_value, -1, 0}), FIELD(intensity, {nan_value, -1, 0})});
     check_fields<in::accuracy::probe>("probe.", {.chips = 1, .pixels = 8}, [&](const auto& p) { use({}, p); },
                                       {FIELD(chips, outside_whole(1, 1024)), FIELD(pixels, outside_whole(1, 2048)),
-                                       FIELD(finest, outside(1, 8)), FIELD(usable_share, outside(0, 1))});
+                                       FIELD(finest, outside(1, 8)), FIELD(usable_fraction, outside(0, 1))});
 }
 
 TEST_CASE("An overhead camera below the lowest seabed height is refused (a wrong datum)") {

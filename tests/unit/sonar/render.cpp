@@ -116,7 +116,7 @@ TEST_CASE("Level ground has one brightness: reflectivity x (intensity x sin(graz
         const auto squared =
             in::render(s, rig, in::render_options<in::shadow::pcf, in::labels, in::lambert_backscatter>{});
         CHECK(squared.image(30, 20) == Approx(0.45 * (0.8 * sine * sine + 0.1)).epsilon(1e-5));
-        for (const std::uint16_t v : lambert.labels.shadow.pixels()) CHECK(v == in::labels::is_lit);
+        for (const std::uint16_t v : lambert.labels.shadow.pixels()) CHECK(v == in::labels::no_shadow);
     }
 }
 
@@ -242,8 +242,8 @@ TEMPLATE_TEST_CASE("Pixels are dark exactly where the labels state a shadow", ""
         for (int x = 0; x < 300; ++x) {
             const std::uint16_t by = picture.labels.shadow(x, y);
             // A rounded target's normals turn away from the light before its facets do.
-            if (by == in::labels::is_lit && picture.labels.instance(x, y) != in::labels::no_instance) continue;
-            CHECK((picture.image(x, y) > 0) == (by == in::labels::is_lit));
+            if (by == in::labels::no_shadow && picture.labels.instance(x, y) != in::labels::no_instance) continue;
+            CHECK((picture.image(x, y) > 0) == (by == in::labels::no_shadow));
             if (by == 1 || by == 2) ++dark[by];
         }
     CHECK(dark[1] > 500);
@@ -345,7 +345,7 @@ TEST_CASE("The light at a picture's edge does not depend on how far the ground i
         const in::render_options<> options{.cell = 0.06, .subpixel_bits = 8};
         const auto shaded = in::render(s, rig, options);
         const auto bare = in::render(s, rig, options.with(in::shadow::none{}));
-        REQUIRE(std::ranges::count(shaded.labels.shadow.pixels(), in::labels::is_lit) == 96 * 64);
+        REQUIRE(std::ranges::count(shaded.labels.shadow.pixels(), in::labels::no_shadow) == 96 * 64);
         CHECK(shaded.stats.seabed_samples > bare.stats.seabed_samples);
         CHECK(shaded.image == bare.image);
     }

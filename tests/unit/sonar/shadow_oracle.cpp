@@ -303,8 +303,8 @@ TEST_CASE("Oracle: a picture's wrong pixels are counted, by kind") {
     for (std::size_t i = 0; i < c.pixels(); i += 97) {
         if (c.truth.pixels()[i].beside) continue;
         std::uint16_t& shadow = altered.shadow.pixels()[i];
-        ++flipped[shadow == in::labels::is_lit];
-        shadow = shadow == in::labels::is_lit ? 1 : in::labels::is_lit;
+        ++flipped[shadow == in::labels::no_shadow];
+        shadow = shadow == in::labels::no_shadow ? 1 : in::labels::no_shadow;
     }
     const auto t = shadow_oracle::compare(c.truth, altered);
     CHECK(t.false_dark == flipped[1]);

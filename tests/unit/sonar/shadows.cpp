@@ -109,7 +109,7 @@ class ray_oracle {
                     const double hit = distance(triangles_[candidates[i]], p, along);
                     lit = !(hit > (is_near ? 1e-12 : 1e-9 * altitude_) && hit < (is_near ? 1 - 1e-9 : no_hit));
                 }
-                d.add(labels.shadow(x, y) == in::labels::is_lit, lit);
+                d.add(labels.shadow(x, y) == in::labels::no_shadow, lit);
             }
         return d;
     }
@@ -266,7 +266,7 @@ TEST_CASE("A relief on a lattice has the same pictures when one of its cells is 
         }
 }
 
-TEST_CASE("Near lights have correct shadows: above the seabed, on it, inside of a target") {
+TEST_CASE("Point lights have correct shadows: above the seabed, on it, inside of a target") {
     constexpr int pixels = 40;
     for (int kind = 0; kind < 3; ++kind) {
         const in::scene s = scenes::make(kind, 0.3);
@@ -323,7 +323,7 @@ TEST_CASE("The penumbra of a round light has the profile of a disc behind an edg
         if (cut < -1.0001) CHECK(seen == Approx(1));
         between += seen > 0 && seen < 0.9999;
         expected += share > 0 && share < 1;
-        CHECK((frame.labels.shadow(x, pixels / 2) == in::labels::is_lit) == (cut < 0));
+        CHECK((frame.labels.shadow(x, pixels / 2) == in::labels::no_shadow) == (cut < 0));
     }
     CHECK(std::abs(between - expected) <= 1);
     CHECK(expected >= 4);
@@ -456,7 +456,7 @@ TEST_CASE("A camera that looks under the border of a heightfield sees its lower 
         REQUIRE(frame.labels.targets[0].area > 500);
         int dark = 0;
         for (std::size_t i = 0; i < frame.image.size(); ++i)
-            dark += frame.labels.instance.pixels()[i] != 0 && frame.labels.shadow.pixels()[i] != in::labels::is_lit;
+            dark += frame.labels.instance.pixels()[i] != 0 && frame.labels.shadow.pixels()[i] != in::labels::no_shadow;
         CHECK(dark == 0);
     }
 }
@@ -539,14 +539,14 @@ TEST_CASE("A target below a gap is shaded by seabed that is farther away than an
 TEST_CASE("A mesh far from its own origin is drawn where the same mesh around it is") {
     const in::overhead rig{.altitude = 10, .field_of_view = 0.5f, .size = {512, 512}, .grazing = 0.3f};
     const in::mesh box = in::to_mesh(in::cube{.size = glm::vec3(2)});
-    const auto near = picture_of_one(box, {.position = {0, 0, 1}, .yaw = 0.5f}, rig);
+    const auto at_origin = picture_of_one(box, {.position = {0, 0, 1}, .yaw = 0.5f}, rig);
     for (const float away : {1000.0f, 100000.0f}) {  // metres, of which float holds the vertices exactly
         in::mesh moved = box;
         for (glm::vec3& p : moved.positions) p.x += away;
         const glm::dvec3 back{-std::cos(0.5) * static_cast<double>(away), -std::sin(0.5) * static_cast<double>(away),
                               1};
         CAPTURE(away);
-        CHECK(picture_of_one(moved, {.position = back, .yaw = 0.5f}, rig).labels.instance == near.labels.instance);
+        CHECK(picture_of_one(moved, {.position = back, .yaw = 0.5f}, rig).labels.instance == at_origin.labels.instance);
     }
 }
 

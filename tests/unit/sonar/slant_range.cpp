@@ -187,7 +187,7 @@ TEST_CASE("The water column is empty up to the first return at R = A, the strong
         CHECK(std::max_element(samples.begin(), samples.end()) - samples.begin() <= first + 1);
         for (int x = 0; x < first; ++x) CHECK(heard.labels.seabed(x, 0) == in::labels::no_seabed);
         for (int x = first + 1; x < 1000; ++x) CHECK(heard.labels.seabed(x, 0) == 0);
-        CHECK(where(heard.labels.shadow, [](auto i) { return i != in::labels::is_lit; }).count == 0);
+        CHECK(where(heard.labels.shadow, [](auto i) { return i != in::labels::no_shadow; }).count == 0);
     }
 }
 
@@ -304,7 +304,7 @@ TEST_CASE("Ranges below the altitude and pings below the seabed return nothing")
         const auto heard = in::record(level_bottom(), track, rig);
         for (const float v : heard.image.row(0)) CHECK(v == 0);
         for (const auto v : heard.labels.seabed.row(0)) CHECK(v == in::labels::no_seabed);
-        for (const auto v : heard.labels.shadow.row(0)) CHECK(v == in::labels::is_lit);
+        for (const auto v : heard.labels.shadow.row(0)) CHECK(v == in::labels::no_shadow);
         const auto other = heard.image.row(1);
         CHECK(std::count_if(other.begin(), other.end(), [](float v) { return v > 0; }) > 10);
     }

@@ -290,8 +290,9 @@ struct own_gain {
 };
 struct own_beam {
     double footprint_factor = 1, reach_factor = 1, pattern_factor = 1;
+    double reach_offset = 0;  // metres: below 0 near the sonar alone
     double footprint(double range) const { return footprint_factor * 0.01 * range; }
-    double reach(double range) const { return reach_factor * 0.02 * range; }
+    double reach(double range) const { return reach_factor * 0.02 * range + reach_offset; }
     double pattern(double, double) const { return pattern_factor; }
 };
 
@@ -305,6 +306,14 @@ TEMPLATE_TEST_CASE("Parts of your own that return NaN or less than 0 are refused
         CHECK_THROWS_WITH(use(wrong), ContainsSubstring(TestType::name) && ContainsSubstring("of the sonar equation"));
 }
 
+TEST_CASE("Power that a float can't hold is refused by the name of its function, as a gain of 0 would make it NaN") {
+    const auto use = [](const auto& part) { (void)heard(level_bottom(), in::sonar_equation{part, own_gain{0}}); };
+    use(own_noise{1e20});
+    CHECK_THROWS_WITH(use(own_noise{1e39}), ContainsSubstring("noise() of the sonar equation is 1e+39"));
+    use(own_direction{1e20});
+    CHECK_THROWS_WITH(use(own_direction{1e39}), ContainsSubstring("over_direction() of the sonar equation is 1e+39"));
+}
+
 TEST_CASE("A horizontal beam of your own that returns NaN or less than 0 is refused by the name of its function") {
     const auto use = [](const own_beam& beam) { (void)heard(level_bottom(), in::sonar_equation<own_beam>{beam}); };
     use({});
@@ -313,6 +322,8 @@ TEST_CASE("A horizontal beam of your own that returns NaN or less than 0 is refu
         CHECK_THROWS_WITH(use({.reach_factor = wrong}), ContainsSubstring("pings in the horizontal beam"));
         CHECK_THROWS_WITH(use({.pattern_factor = wrong}), ContainsSubstring("pattern()"));
     }
+    CHECK_THROWS_WITH(use({.pattern_factor = 0}), ContainsSubstring("sum of pattern() of the sonar equation"));
+    CHECK_THROWS_WITH(use({.reach_offset = -0.1}), ContainsSubstring("sum of pattern() of the sonar equation"));
 }
 
 TEST_CASE("Sediments differ in brightness as in the table") {

@@ -12,10 +12,10 @@ using namespace in::literals;
 TEST_CASE("mirrored(), turned() and beside() arrange pictures") {
     const in::image<int> a{{1, 2, 3}, {4, 5, 6}};
     CHECK(in::mirrored(a) == in::image<int>{{3, 2, 1}, {6, 5, 4}});
-    CHECK(in::turned(a) == in::image<int>{{6, 5, 4}, {3, 2, 1}});
-    CHECK(in::beside(a, in::image<int>{{7}, {8}}, 1, -1) == in::image<int>{{1, 2, 3, -1, 7}, {4, 5, 6, -1, 8}});
-    CHECK_THROWS_AS(in::beside(a, in::image<int>{{7}}), in::invalid_input);
-    CHECK_THROWS_AS(in::beside(a, a, -1), in::invalid_input);
+    CHECK(in::rotated_180(a) == in::image<int>{{6, 5, 4}, {3, 2, 1}});
+    CHECK(in::side_by_side(a, in::image<int>{{7}, {8}}, 1, -1) == in::image<int>{{1, 2, 3, -1, 7}, {4, 5, 6, -1, 8}});
+    CHECK_THROWS_AS(in::side_by_side(a, in::image<int>{{7}}), in::invalid_input);
+    CHECK_THROWS_AS(in::side_by_side(a, a, -1), in::invalid_input);
 }
 
 TEST_CASE("both_sides() takes a recording of each side, of the same pings in the same order") {
@@ -31,7 +31,7 @@ TEST_CASE("both_sides() takes a recording of each side, of the same pings in the
     CHECK_THROWS_WITH(in::both_sides(port, both), ContainsSubstring("starboard.rows.side"));
     const auto overhead = in::render(s, in::overhead{.size = {16, 4}});
     CHECK_THROWS_WITH(in::both_sides(port, overhead), ContainsSubstring("starboard.rows.side"));
-    CHECK_THROWS_WITH(in::both_sides(in::upside_down(port), starboard), ContainsSubstring("port.rows.first"));
+    CHECK_THROWS_WITH(in::both_sides(in::flipped_vertically(port), starboard), ContainsSubstring("port.rows.first"));
     auto other = port;
     other.labels.targets.push_back({"ball", 1, {}, {}, {}});
     CHECK_THROWS_WITH(in::both_sides(other, starboard), ContainsSubstring("port.labels.targets.size() is 1"));
@@ -80,9 +80,9 @@ TEST_CASE("The paper's stitched picture: two of its cameras back to back, shadow
     const auto starboard = in::render(s, rig);
     rig.yaw = 180_deg;
     const auto port = in::render(s, rig);
-    const auto instance = in::beside(in::turned(port.labels.instance), starboard.labels.instance, 10);
-    const auto shadow = in::beside(in::turned(port.labels.shadow), starboard.labels.shadow, 10);
-    const auto image = in::beside(in::turned(port.image), starboard.image, 10, 0.25f);
+    const auto instance = in::side_by_side(in::rotated_180(port.labels.instance), starboard.labels.instance, 10);
+    const auto shadow = in::side_by_side(in::rotated_180(port.labels.shadow), starboard.labels.shadow, 10);
+    const auto image = in::side_by_side(in::rotated_180(port.image), starboard.image, 10, 0.25f);
     REQUIRE(image.width() == 210);
     CHECK(image(104, 50) == 0.25f);
     // In each half, both cubes are seen, as a camera below the middle of that half sees them.
@@ -142,6 +142,7 @@ TEST_CASE("The same scene has the same labels in three geometries, with shadows 
         for (const float v : picture.image.pixels()) REQUIRE(v >= 0);
     };
     check(in::render(s, in::overhead{.position = {5, 0}, .altitude = 4, .size = {400, 400}}));
-    check(in::upside_down(in::render(s, in::ground_range{.altitude = 4, .pings = 90, .range = 12, .bins = 400})));
-    check(in::upside_down(in::render(s, in::side_scan{.altitude = 4, .pings = 90, .range = 12, .bins = 400})));
+    check(
+        in::flipped_vertically(in::render(s, in::ground_range{.altitude = 4, .pings = 90, .range = 12, .bins = 400})));
+    check(in::flipped_vertically(in::render(s, in::side_scan{.altitude = 4, .pings = 90, .range = 12, .bins = 400})));
 }

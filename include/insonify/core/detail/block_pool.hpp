@@ -1,4 +1,4 @@
-// Pool of large memory blocks: what one frame frees serves the next, without the cost of fresh pages.
+// Pool of large memory blocks, reused from frame to frame so that pages are not mapped and cleared again.
 //
 // The operating system maps and clears every page that it hands out, which takes up to half the time of a frame of
 // 2048 x 2048 pixels. A pool keeps freed blocks instead. It belongs to a `context`; the arrays that allocate from it
@@ -53,7 +53,8 @@ class block_pool {
         kept_ += size;
     }
 
-    /// Frees the kept blocks and resets the peak, so that blocks in use are freed, not kept.
+    /// Frees the kept blocks and resets the peak, so that blocks in use are freed, not kept, unless more are allocated
+    /// before.
     INSONIFY_TAGGED void release() noexcept {
         const guard lock(busy_);
         while (count_ > 0) free_oldest();

@@ -16,7 +16,8 @@ inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 [[noreturn]] inline void raise_io(std::string_view path, std::string_view reason) {
-    raise(io_error((path.empty() ? "a file with an empty name" : std::string(path)) + ": " + std::string(reason)));
+    throw_error(
+        io_error((path.empty() ? "a file with an empty name" : std::string(path)) + ": " + std::string(reason)));
 }
 [[noreturn]] inline void raise_io(std::string_view path, std::string_view reason, int error) {
     raise_io(path, std::string(reason) + ": " + std::error_code(error, std::generic_category()).message());

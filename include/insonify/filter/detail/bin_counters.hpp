@@ -60,8 +60,8 @@ inline int count_nan(const float* values, int count) {
     return found;
 }
 
-/// Counts codes. For 8 bits, four tables take turns, so that equal adjacent pixels do not wait for one another's
-/// increment.
+/// Counts codes. Those of 8 bits are counted in four tables in rotation, since incrementing one counter twice in a row
+/// stalls on store-to-load forwarding.
 template <pixel_code Code>
 class code_counter {
   public:

@@ -50,7 +50,7 @@ struct noise_run {
     std::uint32_t channel;  // 0 to 2
 };
 
-constexpr float clip_to_unit(float value) {
+constexpr float saturate(float value) {
     return value < 0 ? 0.0f : value > 1 ? 1.0f : value;
 }
 

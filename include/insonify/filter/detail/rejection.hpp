@@ -15,7 +15,7 @@ struct pixel_list {
     std::uint16_t places[run_length + 8];
 };
 
-/// Appends a place to a list if wanted, without a branch: the outcome is random.
+/// Appends a position to a list if wanted, without a branch, which would be mispredicted: the outcome is random.
 INSONIFY_INLINE void add_if(bool wanted, int place, std::uint16_t* places, int& count) {
     places[count] = static_cast<std::uint16_t>(place);
     count += wanted ? 1 : 0;

@@ -26,7 +26,7 @@ struct pass_by_reference {
 };
 
 /// The identity: the pass before the first stage.
-struct untouched {
+struct identity_pass {
     template <class Pixel>
     INSONIFY_INLINE Pixel operator()(const Pixel& pixel, int, int) const {
         return pixel;
@@ -135,7 +135,7 @@ auto materialize(Source&& source, const Pass& pass, E& ex, pixel_origin origin) 
     using from = typename std::remove_cvref_t<Source>::value_type;
     using to = pass_result<Pass, from>;
     constexpr bool owned = std::is_same_v<Source, image<from>>;
-    if constexpr (std::is_same_v<Pass, untouched>) {
+    if constexpr (std::is_same_v<Pass, identity_pass>) {
         return image<from>(std::forward<Source>(source));
     } else if constexpr (owned && std::is_same_v<from, to>) {
         run_pass(read_only(source), source.view(), pass, ex, origin);
@@ -163,18 +163,18 @@ template <class Source, class Pass, class E, class Sink, class F, class... Rest>
 auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& run, const F& stage,
                 const Rest&... rest) {
     using pixel = pass_result<Pass, typename std::remove_cvref_t<Source>::value_type>;
-    constexpr bool clean = std::is_same_v<Pass, untouched>;
+    constexpr bool is_identity = std::is_same_v<Pass, identity_pass>;
     if constexpr (image_filter<F, pixel>) {
         // Only an image is passed on: a callable of any type would also accept a view and write to the caller's
         // pixels.
-        if constexpr (clean && std::conjunction_v<std::is_same<std::remove_cvref_t<Source>, image<pixel>>,
-                                                  std::is_invocable<const F&, Source>>) {
-            return run_stages(stage(std::forward<Source>(source)), untouched{}, run, rest...);
+        if constexpr (is_identity && std::conjunction_v<std::is_same<std::remove_cvref_t<Source>, image<pixel>>,
+                                                        std::is_invocable<const F&, Source>>) {
+            return run_stages(stage(std::forward<Source>(source)), identity_pass{}, run, rest...);
         } else {
-            return run_stages(stage(materialize(std::forward<Source>(source), pass, run.ex, run.origin)), untouched{},
-                              run, rest...);
+            return run_stages(stage(materialize(std::forward<Source>(source), pass, run.ex, run.origin)),
+                              identity_pass{}, run, rest...);
         }
-    } else if constexpr (clean) {
+    } else if constexpr (is_identity) {
         return run_stages(std::forward<Source>(source), make_pass(stage, read_only(source), run.ex), run, rest...);
     } else if constexpr (measured_filter<F, pixel>) {
         image<pixel> seen = materialize(std::forward<Source>(source), pass, run.ex, run.origin);

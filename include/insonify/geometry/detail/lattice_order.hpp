@@ -52,8 +52,8 @@ class triangle_lattice {
 
     /// Column and row of a vertex, from the triangle's right angle; none if it is more than a quarter of a step off.
     std::optional<glm::ivec2> steps(const mesh& m, std::uint32_t vertex) const {
-        const glm::dvec2 off = place(m, vertex) - origin_;
-        const glm::dvec2 at{x_of_.x * off.x + x_of_.y * off.y, y_of_.x * off.x + y_of_.y * off.y};
+        const glm::dvec2 offset = place(m, vertex) - origin_;
+        const glm::dvec2 at{x_of_.x * offset.x + x_of_.y * offset.y, y_of_.x * offset.x + y_of_.y * offset.y};
         constexpr double limit = 1 << 24;
         glm::ivec2 whole;
         for (int axis = 0; axis < 2; ++axis) {

@@ -92,16 +92,16 @@ inline void validate(const boulder& b) {
 /// @throws invalid_input as `validate` does
 inline mesh to_mesh(const boulder& b) {
     validate(b);
-    random_sequence draw(b.seed, 0x726F636B);
+    random_sequence random(b.seed, 0x726F636B);
     struct fracture {
         glm::dvec3 normal;
         double distance;
     };
     std::vector<fracture> fractures;
     for (int i = 0; i < 16; ++i) {
-        const double z = draw.uniform(-1, 1), turns = draw.uniform(), r = numeric::square_root(1 - z * z);
+        const double z = random.uniform(-1, 1), turns = random.uniform(), r = numeric::square_root(1 - z * z);
         const auto [sine, cosine] = numeric::sin_cos_turns(turns);
-        fractures.push_back({{r * cosine, r * sine, z}, draw.uniform(0.55, 0.9)});
+        fractures.push_back({{r * cosine, r * sine, z}, random.uniform(0.55, 0.9)});
     }
     const philox_key key = stream_key(b.seed, 0x726F636C);
 

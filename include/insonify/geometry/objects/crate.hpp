@@ -49,8 +49,8 @@ inline mesh to_mesh(const crate& c) {
     const glm::dvec3 half = glm::dvec3(c.size) * glm::dvec3(0.5, 0.5, 1);
     const double t = static_cast<double>(c.board);
     mesh body;
-    random_sequence draw(c.seed, 0x62726474);
-    const auto stays = [&] { return draw.uniform() >= static_cast<double>(c.damage); };
+    random_sequence random(c.seed, 0x62726474);
+    const auto stays = [&] { return random.uniform() >= static_cast<double>(c.damage); };
     // The extent of board i of a row that fills [low, high].
     struct extent {
         double low, high;

@@ -39,12 +39,12 @@ inline std::vector<deck_plate> hatches_of(const hull& h) {
 }
 
 /// Deck beams of a collapsed ship, which outlast the planks above them.
-inline void append_beams(mesh& into, const hull_lines& lines, const stretch_of_hull& part, random_sequence& draw) {
+inline void append_beams(mesh& into, const hull_lines& lines, const stretch_of_hull& part, random_sequence& random) {
     const double c = lines.collapse();
     const int beams = 28;
     for (int i = 1; c > 0 && i < beams; ++i) {
-        const double u = 0.04 + 0.9 * (i + 0.31) / beams, drop = draw.uniform();
-        if (draw.uniform() < c * c * 1.1 || !part.contains(u)) continue;
+        const double u = 0.04 + 0.9 * (i + 0.31) / beams, drop = random.uniform();
+        if (random.uniform() < c * c * 1.1 || !part.contains(u)) continue;
         const double low = lines.deck_height(u) * (1 - 0.25 * c * drop) - 2 * lines.plating(),
                      w = 0.85 * lines.deck_w(u);
         const glm::dvec3 port = lines.between(u, w, 0.98, low), starboard = lines.between(u, w, -0.98, low);
@@ -56,7 +56,7 @@ inline void append_beams(mesh& into, const hull_lines& lines, const stretch_of_h
 
 /// Decks with hatch openings and coamings. In a collapsed ship the plating is in pieces, some of which are missing.
 inline void append_decks(mesh& into, const hull& h, const hull_lines& lines, const stretch_of_hull& part,
-                         random_sequence& draw) {
+                         random_sequence& random) {
     const std::vector<deck_plate> hatches = hatches_of(h);
     const double c = lines.collapse();
     std::vector<deck_plate> plates;
@@ -75,7 +75,7 @@ inline void append_decks(mesh& into, const hull& h, const hull_lines& lines, con
             const double pitch = (whole.to - whole.from) / pieces;
             plate.from = (std::max)(whole.from + pitch * (i + (c > 0 ? 0.02 : 0.0)), part.from);
             plate.to = (std::min)(whole.from + pitch * (i + 1 - (c > 0 ? 0.02 : 0.0)), part.to);
-            if (draw.uniform() < 1.15 * c || plate.to - plate.from < 0.002) continue;
+            if (random.uniform() < 1.15 * c || plate.to - plate.from < 0.002) continue;
             append_deck(into, lines, plate, h.segments);
         }
     }
@@ -90,7 +90,7 @@ inline hull_parts build_hull(const hull& h, const stretch_of_hull& part) {
     const hull_lines lines(h);
     hull_parts out;
     const auto of = [&](hull_part p) -> mesh& { return out[static_cast<std::size_t>(p)]; };
-    random_sequence draw(h.seed, 0x77726563);
+    random_sequence random(h.seed, 0x77726563);
 
     append_plating(of(hull_part::plating), lines, part, h.segments);
     if (part.from <= 0)
@@ -104,15 +104,15 @@ inline hull_parts build_hull(const hull& h, const stretch_of_hull& part) {
         const double u = 0.03 + 0.93 * (i + 0.17) / frames;
         for (const double side : {-1.0, 1.0}) {
             // Frames outlast the plates between them.
-            const double extra = 0.3 * lines.collapse() * draw.uniform();
+            const double extra = 0.3 * lines.collapse() * random.uniform();
             if (part.contains(u))
                 append_frame(of(hull_part::plating), lines, u, side,
                              (std::min)(lines.standing(u, side) + extra - 0.02, 0.97 * lines.deck_w(u)),
                              (std::max)(0.05 * lines.half_beam(), lines.plating()));
         }
     }
-    append_decks(of(hull_part::decks), h, lines, part, draw);
-    append_beams(of(hull_part::decks), lines, part, draw);
+    append_decks(of(hull_part::decks), h, lines, part, random);
+    append_beams(of(hull_part::decks), lines, part, random);
     append_house(of(hull_part::house), h, lines, part);
     const stretch_of_hull house = house_of(h);
     for (int i = 0; i < h.masts; ++i) {
@@ -122,7 +122,7 @@ inline hull_parts build_hull(const hull& h, const stretch_of_hull& part) {
         if (part.contains(u)) append_mast(of(hull_part::rigging), h, lines, u, i % 2 == 0 ? 1 : -1);
     }
     if (lines.collapse() > 0.25 && h.has_funnel) append_machinery(of(hull_part::machinery), h, lines, part);
-    append_debris(of(hull_part::debris), lines, part, static_cast<int>(60 * lines.collapse()), draw);
+    append_debris(of(hull_part::debris), lines, part, static_cast<int>(60 * lines.collapse()), random);
     return out;
 }
 
@@ -145,14 +145,14 @@ inline compound to_compound(const hull& h) {
         all = detail::build_hull(h, {0, at});
         // The bow half turns about the break, and rises by what its roll would sink into the bottom.
         const double x = (at - 0.5) * static_cast<double>(h.length);
-        const auto turned = [&](float roll) {
+        const auto rolled = [&](float roll) {
             return compose(
                 to_world({.position = {x + static_cast<double>(h.break_gap), 0, 0}, .yaw = h.break_yaw, .roll = roll}),
                 {glm::dmat3(1), {-x, 0, 0}});
         };
         const detail::hull_parts bow = detail::build_hull(h, {at, 1});
         // What collapsed lies flatter, and what fell off it lies on the bottom.
-        const affine turn = turned(h.break_roll * (1 - h.collapse)), level = turned(0);
+        const affine turn = rolled(h.break_roll * (1 - h.collapse)), level = rolled(0);
         double lowest = 0;
         for (const glm::vec3& p : bow[static_cast<std::size_t>(detail::hull_part::plating)].positions)
             lowest = (std::min)(lowest, transform_point(turn, glm::dvec3(p)).z);

@@ -51,7 +51,7 @@ inline mesh to_mesh(const open_pipe& p) {
     validate(p);
     const double radius = 0.5 * static_cast<double>(p.diameter), bore = radius - static_cast<double>(p.wall);
     const double half = 0.5 * static_cast<double>(p.length);
-    random_sequence draw(p.seed, 0x70697065);
+    random_sequence random(p.seed, 0x70697065);
     double ragged = 0;
 
     // Each section is the cut of the wall at one angle: a ring of them, closed on itself.
@@ -71,7 +71,7 @@ inline mesh to_mesh(const open_pipe& p) {
     for (std::uint32_t i = 0; i < segments; ++i) {
         const auto [sine, cosine] = numeric::sin_cos_turns(static_cast<double>(i) / p.segments);
         // A broken edge tears in steps: a slow walk with a jump at every segment.
-        ragged = 0.6 * ragged + 0.4 * draw.uniform();
+        ragged = 0.6 * ragged + 0.4 * random.uniform();
         const double torn = i == 0 ? 0.0 : static_cast<double>(p.broken) * ragged;
         for (const corner& c : outline) {
             const double x = c.x - (c.x > 0 ? torn : 0.0);

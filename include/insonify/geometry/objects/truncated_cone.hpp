@@ -58,25 +58,25 @@ inline mesh to_mesh(const truncated_cone& c) {
     const double slant = numeric::square_root(deck * deck + (base - top) * (base - top));
 
     // Normals come from the creases; those of the two poles make one vertex of each.
-    std::vector<outline_point> outline = {{0, 0, 0, -1}, {base, 0, 1, 0}};
+    std::vector<profile_point> profile = {{0, 0, 0, -1}, {base, 0, 1, 0}};
     if (c.shoulder > 0) {
         // A quadratic curve from the side to the top, tangent to both.
         const double cut = static_cast<double>(c.shoulder);
         const double from_r = top + cut * (base - top) / slant, from_z = deck - cut * deck / slant;
         for (int i = 0; i <= 4; ++i) {
             const double t = i / 4.0, a = (1 - t) * (1 - t), b = 2 * t * (1 - t), d = t * t;
-            outline.push_back({a * from_r + b * top + d * (top - cut), a * from_z + (b + d) * deck, 1, 0});
+            profile.push_back({a * from_r + b * top + d * (top - cut), a * from_z + (b + d) * deck, 1, 0});
         }
     } else {
-        outline.push_back({top, deck, 1, 0});
+        profile.push_back({top, deck, 1, 0});
     }
     if (has_boss) {
         const double boss = 0.5 * static_cast<double>(c.boss_diameter);
-        outline.push_back({boss, deck, 1, 0});
-        outline.push_back({0.9 * boss, static_cast<double>(c.height), 1, 0});
+        profile.push_back({boss, deck, 1, 0});
+        profile.push_back({0.9 * boss, static_cast<double>(c.height), 1, 0});
     }
-    outline.push_back({0, static_cast<double>(c.height), 0, 1});
-    mesh body = revolve(outline, c.segments);
+    profile.push_back({0, static_cast<double>(c.height), 0, 1});
+    mesh body = revolve(profile, c.segments);
 
     // Lugs are half rings that stand out of the side above its middle.
     for (int i = 0; i < c.lugs; ++i) {

@@ -48,7 +48,7 @@ inline mesh to_mesh(const tyre& t) {
     const double rim = 0.5 * static_cast<double>(t.rim_diameter), wall = static_cast<double>(t.wall);
     const double ring = 0.5 * static_cast<double>(t.diameter) - rim, half = 0.5 * static_cast<double>(t.width);
     const int steps = 2 * ((std::max)(t.segments / 8, 3));  // even: one point lies on the widest circle
-    std::vector<outline_point> outline;
+    std::vector<profile_point> profile;
     const auto add_arc = [&](double radial, double axial, bool upwards) {
         for (int i = 0; i <= steps; ++i) {
             const double turns = (upwards ? 1 : -1) * (0.5 * i / steps - 0.25);
@@ -56,19 +56,19 @@ inline mesh to_mesh(const tyre& t) {
             if (i == 0 || i == steps) cosine = 0;
             const double out = cosine > 0 ? numeric::pow(cosine, 2 / 3.2) : 0.0;
             const double up = numeric::pow(numeric::abs(sine), 2 / 3.2);
-            outline.push_back({rim + radial * out, half + (sine < 0 ? -up : up) * axial, 1, 0});
+            profile.push_back({rim + radial * out, half + (sine < 0 ? -up : up) * axial, 1, 0});
         }
     };
     add_arc(ring, half, true);
     add_arc(ring - wall, half - wall, false);
-    outline.push_back(outline.front());
-    mesh body = revolve(outline, t.segments);
+    profile.push_back(profile.front());
+    mesh body = revolve(profile, t.segments);
 
     if (t.fill > 0) {
         // The sediment ends in the cavity, at 0.3 of its depth, where the cavity is higher than the sediment ever is.
         const double inner = 0.9 * (half - wall), bottom = half - inner, reach = rim + 0.3 * (ring - wall);
         const double surface = bottom + 2 * inner * static_cast<double>(t.fill);
-        const std::vector<outline_point> sediment = {
+        const std::vector<profile_point> sediment = {
             {0, bottom, 0, -1}, {reach, bottom, 1, 0}, {reach, surface, 1, 0}, {0, surface, 0, 1}};
         detail::append(body, revolve(sediment, t.segments));
     }

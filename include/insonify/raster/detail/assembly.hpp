@@ -49,7 +49,7 @@ class screen_mesh {
         : mesh_(m),
           compact_count_(static_cast<std::uint32_t>(m.triangles.size())),
           grid_(grid),
-          projection_(grid, options.keep, std::is_same_v<Real, double>),
+          projection_(grid, options.compare, std::is_same_v<Real, double>),
           cull_(options.cull),
           vertices_(m.positions.size(), has_weights && std::is_same_v<Real, double>, memory_of(ex)) {
         bulk_ranges(ex, m.positions.size(), 8192, [&](std::size_t first, std::size_t last) {
@@ -247,11 +247,12 @@ struct assembly_kernel {
         const int size = tiles.log2_size;  // see tile_range::pack
         const ints first_tile = ints((pixels.x0 >> size) | (pixels.y0 >> size << 16)),
                    last_tile = ints(((pixels.x1 - 1) >> size) | ((pixels.y1 - 1) >> size << 16));
-        const unsigned degenerate = movemask<N>(ints(area == 0)) & ~outside, turned = movemask<N>(culled) & ~outside,
-                       drawn = all & ~(movemask<N>(empty) | degenerate | turned);
+        const unsigned degenerate = movemask<N>(ints(area == 0)) & ~outside,
+                       culled_mask = movemask<N>(culled) & ~outside,
+                       drawn = all & ~(movemask<N>(empty) | degenerate | culled_mask);
         if ((movemask<N>(sliver) & drawn) != 0) return false;
         out.stats.degenerate += static_cast<unsigned>(std::popcount(degenerate));
-        out.stats.culled += static_cast<unsigned>(std::popcount(turned));
+        out.stats.culled += static_cast<unsigned>(std::popcount(culled_mask));
         out.stats.drawn += static_cast<unsigned>(std::popcount(drawn));
         // All of them usually touch the same tiles.
         const std::int32_t one_first = lane(first_tile, 0), one_last = lane(last_tile, 0);

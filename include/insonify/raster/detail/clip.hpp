@@ -44,7 +44,7 @@ class projection {
     /// @param exact  whether to divide by w rather than multiply by 1 / w, which may be off in the last bit. Exact
     ///               positions are the nearest on the grid up to 2^27 sub-pixels from its centre, and within 2^-52 of
     ///               the distance beyond that
-    projection(const pixel_grid& grid, keep_depth keep, bool exact)
+    projection(const pixel_grid& grid, depth_compare compare, bool exact)
         : grid_(grid),
           half_width_(0.5 * grid.width),
           half_height_(0.5 * grid.height),
@@ -54,7 +54,7 @@ class projection {
           widest_y_(grid.reach(pixel_grid::widest_bits) / half_height_),
           right_(grid, grid.width, half_width_),
           down_(grid, grid.height, -half_height_),
-          sign_(keep == keep_depth::smaller ? 1.0 : -1.0),
+          sign_(compare == depth_compare::less ? 1.0 : -1.0),
           exact_(exact) {}
 
     /// Distance to a clipping plane in clip space, >= 0 inside. The first plane keeps w away from zero.
@@ -143,7 +143,7 @@ class projection {
         std::memcpy(&into, &bits, sizeof into);
     }
 
-    /// Clamps a corner that rounding left outside of a plane, which next to the eye may be far outside. The result
+    /// Clamps a corner that rounding left outside of a plane; close to the camera the error may be large. The result
     /// depends on the position alone, so that adjacent triangles keep their shared corner.
     void move_inside(glm::dvec4& p) const {
         p.w = (std::max)(p.w, smallest_w);
@@ -174,7 +174,7 @@ class projection {
     }
 
     /// Where the edge between two corners on either side of a plane meets it. Both weights are positive, so that a
-    /// crossing next to the eye does not cancel out against a distant end. Exchanging the corners changes no bit.
+    /// crossing close to the camera loses no digits to a distant end. Exchanging the corners changes no bit.
     static clip_corner crossing(const clip_corner& a, double d_a, const clip_corner& b, double d_b) {
         const double weight_a = d_b / (d_b - d_a), weight_b = d_a / (d_a - d_b);
         return {weight_a * a.position + weight_b * b.position, weight_a * a.weights + weight_b * b.weights};

@@ -31,7 +31,7 @@ class screen_polygon {
         for (int i = 1; i + 1 < count_; ++i) {
             const int128 part = wide_area(at(0), at(i), at(i + 1));
             area = area + part;
-            turns_[part.sign() + 1] = true;
+            has_orientation_[part.sign() + 1] = true;
         }
         area_sign_ = area.sign();
         // The largest part that is oriented like the whole polygon.
@@ -62,7 +62,7 @@ class screen_polygon {
     /// if it is folded, spans of covered pixels in the plane of three of its corners.
     template <class Part>
     void for_each_part(const pixel_grid& grid, const Part& part) const {
-        if (turns_[0] && turns_[2]) return for_each_span(grid, part);
+        if (has_orientation_[0] && has_orientation_[2]) return for_each_span(grid, part);
         for (int i = 1; i + 1 < count_; ++i) {
             const rect pixels = centre_rect(at(0), at(i), at(i + 1), grid);
             if (!pixels.empty() && wide_area(at(0), at(i), at(i + 1)).sign() != 0)
@@ -121,7 +121,7 @@ class screen_polygon {
 
     std::array<screen_vertex, 3 + clip_polygon::planes> corners_;
     int count_;
-    bool turns_[3] = {};  ///< whether a part runs counter-clockwise, is degenerate, runs clockwise
+    bool has_orientation_[3] = {};  ///< whether a part runs counter-clockwise, is degenerate, runs clockwise
     int128 largest_{};
     int largest_part_ = 1;
     int area_sign_ = 0;

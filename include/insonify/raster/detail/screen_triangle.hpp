@@ -34,11 +34,11 @@ struct screen_triangle {
     /// Perspective-correct barycentric weights of the mesh triangle's vertices at a pixel's centre.
     glm::dvec3 weights_at(int x, int y, const pixel_grid& grid) const {
         const auto opposite = [&](const screen_vertex& from, const screen_vertex& to) {
-            const std::int64_t run = to.x - from.x, rise = to.y - from.y;
+            const std::int64_t edge_x = to.x - from.x, edge_y = to.y - from.y;
             const std::int64_t right = grid.centre(x) - from.x, down = grid.centre(y) - from.y;
-            if (wide == nullptr) return static_cast<double>(compact_side(run, rise, right, down));
+            if (wide == nullptr) return static_cast<double>(compact_side(edge_x, edge_y, right, down));
             // Pixels of a span may lie just outside of the corners, where a weight would be negative.
-            const double weight = double_double::from(wide_side(run, rise, right, down)).high;
+            const double weight = double_double::from(wide_side(edge_x, edge_y, right, down)).high;
             return weight > 0 ? weight : 0.0;
         };
         const double wa = opposite(b, c) * a.inverse_w;

@@ -86,16 +86,16 @@ struct pixel_grid {
     }
 };
 
-/// run * down - rise * right: positive on the inner side of an edge of a clockwise triangle. Compact differences stay
-/// within 2^30, so 64 bits hold the result.
-inline std::int64_t compact_side(std::int64_t run, std::int64_t rise, std::int64_t right, std::int64_t down) {
-    return run * down - rise * right;
+/// edge_x * down - edge_y * right: positive on the inner side of an edge of a clockwise triangle. Compact differences
+/// stay within 2^30, so 64 bits hold the result.
+inline std::int64_t compact_side(std::int64_t edge_x, std::int64_t edge_y, std::int64_t right, std::int64_t down) {
+    return edge_x * down - edge_y * right;
 }
-inline int128 wide_side(std::int64_t run, std::int64_t rise, std::int64_t right, std::int64_t down) {
-    return int128::product(run, down) - int128::product(rise, right);
+inline int128 wide_side(std::int64_t edge_x, std::int64_t edge_y, std::int64_t right, std::int64_t down) {
+    return int128::product(edge_x, down) - int128::product(edge_y, right);
 }
 
-/// Twice the signed area in squared fixed-point units; positive for triangles that run clockwise on the screen.
+/// Twice the signed area in squared fixed-point units; positive for triangles that edge_x clockwise on the screen.
 inline std::int64_t compact_area(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c) {
     return compact_side(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
 }
@@ -125,13 +125,15 @@ struct edge_function {
     /// The edge from a to b of a clockwise triangle, for the pixels right of and below (x, y).
     static edge_function through(const screen_vertex& a, const screen_vertex& b, const pixel_grid& grid, int x, int y,
                                  bool compact) {
-        const std::int64_t run = b.x - a.x, rise = b.y - a.y;
+        const std::int64_t edge_x = b.x - a.x, edge_y = b.y - a.y;
         const std::int64_t right = grid.centre(x) - a.x, down = grid.centre(y) - a.y;
-        const bool top_left = rise < 0 || (rise == 0 && run > 0);
+        const bool top_left = edge_y < 0 || (edge_y == 0 && edge_x > 0);
         const std::int64_t inner = top_left ? 0 : -1;
         // A pixel is 2^s units wide, so E changes by multiples of 2^s and its sign survives the shift.
-        if (compact) return {(compact_side(run, rise, right, down) + inner) >> grid.subpixel_bits, -rise, run};
-        return {(wide_side(run, rise, right, down) + int128::from(inner)).shifted_down(grid.subpixel_bits), -rise, run};
+        if (compact)
+            return {(compact_side(edge_x, edge_y, right, down) + inner) >> grid.subpixel_bits, -edge_y, edge_x};
+        return {(wide_side(edge_x, edge_y, right, down) + int128::from(inner)).shifted_down(grid.subpixel_bits),
+                -edge_y, edge_x};
     }
 
     /// Whether E fits 32 bits everywhere in a rectangle of that size.
@@ -146,10 +148,10 @@ struct edge_function {
     edge_function simplified(int width, int height) const {
         const std::int64_t across = dx * (width - 1), along = dy * (height - 1);
         constexpr std::int64_t none = 0;
-        const std::int64_t falls = (std::min)(across, none) + (std::min)(along, none);
-        const std::int64_t rises = (std::max)(across, none) + (std::max)(along, none);
-        if (origin >= -falls) return {0, 0, 0};
-        if (origin < -rises) return {-1, 0, 0};
+        const std::int64_t lowest = (std::min)(across, none) + (std::min)(along, none);
+        const std::int64_t highest = (std::max)(across, none) + (std::max)(along, none);
+        if (origin >= -lowest) return {0, 0, 0};
+        if (origin < -highest) return {-1, 0, 0};
         return *this;
     }
 };
@@ -166,7 +168,7 @@ struct depth_plane {
                                const pixel_grid& grid) {
         const auto unit = static_cast<double>(grid.unit()), pixel = 1 / unit;
         const double scale = unit / area;
-        const double b_rise = b.z - a.z, c_rise = c.z - a.z;
+        const double b_dz = b.z - a.z, c_dz = c.z - a.z;
         const auto bx = static_cast<double>(b.x - a.x), by = static_cast<double>(b.y - a.y);
         const auto cx = static_cast<double>(c.x - a.x), cy = static_cast<double>(c.y - a.y);
         const auto [lowest, highest] = std::minmax({a.z, b.z, c.z});
@@ -174,8 +176,8 @@ struct depth_plane {
         plane.x = static_cast<double>(a.x - grid.half()) * pixel;
         plane.y = static_cast<double>(a.y - grid.half()) * pixel;
         plane.z = a.z;
-        plane.dx = scale * (b_rise * cy - c_rise * by);
-        plane.dy = scale * (c_rise * bx - b_rise * cx);
+        plane.dx = scale * (b_dz * cy - c_dz * by);
+        plane.dy = scale * (c_dz * bx - b_dz * cx);
         plane.lowest = static_cast<float>(lowest);
         plane.highest = static_cast<float>(highest);
 
@@ -204,7 +206,7 @@ inline float rounded_depth(const screen_vertex& a, const screen_vertex& b, const
     return (sum / wide(weights[0] + weights[1] + weights[2])).to_float();
 }
 
-/// A triangle of any size, ready for the pixels of a rectangle. The vertices run clockwise on the screen; edges are
+/// A triangle of any size, ready for the pixels of a rectangle. The vertices edge_x clockwise on the screen; edges are
 /// named by their ends.
 struct triangle_setup {
     edge_function bc, ca, ab;

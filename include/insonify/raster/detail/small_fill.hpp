@@ -91,18 +91,18 @@ struct small_fill {
         floats lowest, highest;
         load(lowest, planes.lowest), load(highest, planes.highest);
         const ints last_column = width - 1, last_row = height - 1;
-        reals rise[static_cast<unsigned>(side)];
+        reals z_across[static_cast<unsigned>(side)];
         unroll<side>([&](int column) INSONIFY_INLINE_LAMBDA {
-            convert(rise[column], ints(right + column * unit));
-            rise[column] = rise[column] * dx;
+            convert(z_across[column], ints(right + column * unit));
+            z_across[column] = z_across[column] * dx;
         });
 
         block_pixels found;
         unroll<side>([&](int row) INSONIFY_INLINE_LAMBDA {
             ints bc_x = bc, ca_x = ca, ab_x = ab;
-            reals drop;
-            convert(drop, ints(down + row * unit));
-            drop = z_a + dy * drop;
+            reals z_down;
+            convert(z_down, ints(down + row * unit));
+            z_down = z_a + dy * z_down;
             unroll<side>([&](int column) INSONIFY_INLINE_LAMBDA {
                 const int pixel = row * block + column;
                 const std::int32_t mask = 1 << pixel;
@@ -111,7 +111,7 @@ struct small_fill {
                 found.covered |= outside >= 0 ? bit : ints{};
                 floats z;
                 ints ambiguous = ints{};
-                round(z, ambiguous, rise[column] + drop, error);
+                round(z, ambiguous, z_across[column] + z_down, error);
                 if constexpr (exact) found.ambiguous |= ambiguous ? bit : ints{};
                 z = z > lowest ? z : lowest;
                 z = z < highest ? z : highest;
@@ -194,9 +194,9 @@ struct small_fill {
         ints ca = t.ca.origin[k] + at * t.ca.dx[k];
         ints ab = t.ab.origin[k] + at * t.ab.dx[k];
         const ints bc_dy = ints{} + t.bc.dy[k], ca_dy = ints{} + t.ca.dy[k], ab_dy = ints{} + t.ab.dy[k];
-        reals rise, error{};
-        convert(rise, ints(at * unit + t.right[k]));
-        rise = rise * planes.dx[k];
+        reals z_across, error{};
+        convert(z_across, ints(at * unit + t.right[k]));
+        z_across = z_across * planes.dx[k];
         if constexpr (exact) error = error + planes.error[k];
         const Real z_a = planes.z[k], dy = planes.dy[k], step = static_cast<Real>(unit);
         const floats lowest = floats{} + planes.lowest[k], highest = floats{} + planes.highest[k];
@@ -210,7 +210,7 @@ struct small_fill {
             const ints covered = ints((bc | ca | ab) >= 0);
             floats z;
             ints ambiguous = ints{};
-            round(z, ambiguous, rise + (z_a + dy * down), error);
+            round(z, ambiguous, z_across + (z_a + dy * down), error);
             if constexpr (exact) {
                 ambiguous &= covered;
                 if (any(ambiguous))

@@ -41,8 +41,9 @@ template <int N>
 struct drawn_area {
     using ints = lanes<std::int32_t, N>;
     rect_lanes<N> pixels;
-    ints half, before;  ///< half a pixel in sub-pixels, and one sub-pixel less
-    int bits;           ///< of sub-pixels
+    ints half;    ///< half a pixel in sub-pixels
+    ints before;  ///< one sub-pixel less
+    int bits;     ///< of sub-pixels
 
     INSONIFY_INLINE drawn_area(const pixel_grid& grid, const rect& r)
         : pixels{ints{} + r.x0, ints{} + r.y0, ints{} + r.x1, ints{} + r.y1},
@@ -145,12 +146,12 @@ struct small_setup {
   private:
     INSONIFY_INLINE static void edge(edge_lanes& e, const ints& from_x, const ints& from_y, const ints& to_x,
                                      const ints& to_y, const ints& x, const ints& y, int bits) {
-        const ints run = to_x - from_x, rise = to_y - from_y, none = ints{};
-        const ints top_left = ints((rise < none) | ((rise == none) & (run > none)));
+        const ints edge_x = to_x - from_x, edge_y = to_y - from_y, none = ints{};
+        const ints top_left = ints((edge_y < none) | ((edge_y == none) & (edge_x > none)));
         const ints inner = top_left ? none : none - 1;
-        store(e.origin, ints((run * (y - from_y) - rise * (x - from_x) + inner) >> bits));
-        store(e.dx, ints(none - rise));
-        store(e.dy, run);
+        store(e.origin, ints((edge_x * (y - from_y) - edge_y * (x - from_x) + inner) >> bits));
+        store(e.dx, ints(none - edge_y));
+        store(e.dy, edge_x);
     }
 };
 
@@ -177,10 +178,10 @@ struct small_planes {
         convert(cy, t.cy - t.ay);
         convert(scale, area);
         scale = Real{1} / scale;
-        const reals b_rise = bz - az, c_rise = cz - az;
+        const reals b_dz = bz - az, c_dz = cz - az;
         store(z, az);
-        store(dx, reals(scale * (b_rise * cy - c_rise * by)));
-        store(dy, reals(scale * (c_rise * bx - b_rise * cx)));
+        store(dx, reals(scale * (b_dz * cy - c_dz * by)));
+        store(dy, reals(scale * (c_dz * bx - b_dz * cx)));
 
         reals low = az < bz ? az : bz, high = az > bz ? az : bz;
         low = low < cz ? low : cz;

@@ -29,8 +29,8 @@ class block_layer {
           height_(height),
           wall_(steepness * static_cast<float>(cell)) {}
 
-    /// The fraction of the height that the stretch's grid can carry.
-    float carried_by(const stretch& part) const { return carried(2 / lattice_.frequency, part.grid_spacing); }
+    /// Gain of the band limit: 1 where the stretch's grid resolves the blocks, 0 where it can't.
+    float band_gain_on(const stretch& part) const { return band_limit_gain(2 / lattice_.frequency, part.grid_spacing); }
 
     /// Raises the values along a stretch, metres, to the tops of the blocks; values between blocks stay.
     template <int N>
@@ -45,7 +45,7 @@ class block_layer {
                     if (!some.find(*this, hash, dy, static_cast<std::uint32_t>(column), first + count - column))
                         continue;
                     for (int k = 0; k < N; ++k)
-                        if (some.is_crossed[k] != 0) draw<N>(part, values, column + k, block(*this, some, k));
+                        if (some.is_crossed[k] != 0) raise_to_block<N>(part, values, column + k, block(*this, some, k));
                 }
             });
         }
@@ -160,7 +160,7 @@ class block_layer {
     };
 
     template <int N>
-    INSONIFY_INLINE void draw(const stretch& part, float* values, std::int64_t column, const block& b) const {
+    INSONIFY_INLINE void raise_to_block(const stretch& part, float* values, std::int64_t column, const block& b) const {
         const double from = static_cast<double>(column) - lattice_.offset_x, cell = 1 / lattice_.frequency;
         const double middle = from + static_cast<double>(b.x), reach = static_cast<double>(b.chord);
         const stretch::range reached = part.within((middle - reach) * cell, (middle + reach) * cell);

@@ -33,8 +33,8 @@ class gradient_noise {
     /// @param cell  metres, > 0
     gradient_noise(double cell, cell_hash hash) : lattice_(lattice::shifted(cell, hash)), hash_(hash) {}
 
-    /// The fraction of the amplitude that the stretch's grid can carry; a cell is about half a wavelength.
-    float carried_by(const stretch& part) const { return carried(2 / lattice_.frequency, part.grid_spacing); }
+    /// Gain of the band limit on a stretch's grid; a cell is about half a wavelength.
+    float band_gain_on(const stretch& part) const { return band_limit_gain(2 / lattice_.frequency, part.grid_spacing); }
 
     /// Adds `amplitude` times the noise along a stretch to its values.
     template <int N>
@@ -100,7 +100,7 @@ class gradient_noise {
 
     struct line_of_cells {
         cell_hash::row below, above;
-        float up, rise, gain;  // the row's fraction within its cells, the fade of it, and the scale
+        float up, weight_y, gain;  // the row's fraction within its cells, the fade of it, and the scale
 
         template <int N>
         INSONIFY_INLINE void sides_of(lanes<float, N>& height, lanes<float, N>& slope, const words<N>& column) const {
@@ -109,8 +109,8 @@ class gradient_noise {
             gradient<N>(high_x, high_y, above, column);
             low_y = low_y * up;
             high_y = high_y * (up - 1.0f);
-            slope = gain * (low_x + rise * (high_x - low_x));
-            height = gain * (low_y + rise * (high_y - low_y));
+            slope = gain * (low_x + weight_y * (high_x - low_x));
+            height = gain * (low_y + weight_y * (high_y - low_y));
         }
 
         /// Both components in [-1, 1), from 16 bits each.
@@ -199,9 +199,9 @@ class power_law_noise {
     template <int N>
     INSONIFY_INLINE void add_lanes(const stretch& part, float* values) const {
         for (const octave& o : octaves_) {
-            const float kept = o.noise.carried_by(part);
-            if (kept == 0) break;  // finer octaves are not carried either
-            o.noise.template add<N>(part, kept * o.amplitude, values);
+            const float band_gain = o.noise.band_gain_on(part);
+            if (band_gain == 0) break;  // finer octaves are not resolved either
+            o.noise.template add<N>(part, band_gain * o.amplitude, values);
         }
     }
     dynamic_array<octave> octaves_;

@@ -45,12 +45,13 @@ class ripple_train {
         require_range(name + ".spread", r.spread, 0, 0.5f, "0 to 0.5 radians");
         require_range(name + ".bandwidth", r.bandwidth, 0, 0.25f, "0 to 0.25");
         require_range(name + ".sharpness", r.sharpness, 0, 0.9f, "0 to 0.9");
-        if (half_height_ > 0) draw_waves(r, random_sequence(seed, static_cast<std::uint32_t>(purpose)));
+        if (half_height_ > 0) make_waves(r, random_sequence(seed, static_cast<std::uint32_t>(purpose)));
     }
 
     /// Adds the relief along a stretch to its values, metres.
     void add(const stretch& part, stretch_values& values, isa level = best_isa()) const {
-        if (half_height_ > 0 && carried(wavelength_, part.grid_spacing) > 0) add_relief(*this, part, values, level);
+        if (half_height_ > 0 && band_limit_gain(wavelength_, part.grid_spacing) > 0)
+            add_relief(*this, part, values, level);
     }
 
     /// Upper bound of the relief's absolute value, metres: the profile is within half the height, up to the carrier's
@@ -79,11 +80,11 @@ class ripple_train {
     static constexpr std::size_t block = 32;    // lattice points whose rotations are tabulated
     static constexpr std::size_t points = 256;  // size of the table that a stretch shares
 
-    void draw_waves(const ripple_system& r, random_sequence draw) {
+    void make_waves(const ripple_system& r, random_sequence random) {
         // Latin hypercube sampling of direction and wave number: few waves suffice for the required moments.
         std::array<double, waves> strata{};
         for (std::uint32_t n = 0; n < waves; ++n) {
-            const std::uint32_t other = draw.below(n + 1);
+            const std::uint32_t other = random.below(n + 1);
             strata[n] = strata[other];
             strata[other] = n;
         }
@@ -94,12 +95,13 @@ class ripple_train {
         double largest = 0;
         for (std::size_t n = 0; n < waves; ++n) {
             const double k = frequency * (1 + static_cast<double>(r.bandwidth) *
-                                                  triangular((static_cast<double>(n) + draw.uniform()) / waves));
-            const double turned = static_cast<double>(r.spread) * triangular((strata[n] + draw.uniform()) / waves);
-            const auto along = numeric::sin_cos(angle + turned);
+                                                  triangular((static_cast<double>(n) + random.uniform()) / waves));
+            const double angle_offset =
+                static_cast<double>(r.spread) * triangular((strata[n] + random.uniform()) / waves);
+            const auto along = numeric::sin_cos(angle + angle_offset);
             wave_x_[n] = k * along.cosine - carrier_x_;
             wave_y_[n] = k * along.sine - carrier_y_;
-            phase_[n] = draw.uniform();
+            phase_[n] = random.uniform();
             largest = (std::max)(largest, numeric::abs(wave_x_[n]));
         }
 
@@ -177,8 +179,8 @@ class ripple_train {
         using insonify::detail::lane;
         const double frequency = 1 / step_, across_rows = carrier_y_ * part.y;
         // The harmonic that sharpens crests has half their wavelength.
-        const float half_height = half_height_ * carried(wavelength_, part.grid_spacing);
-        const float sharpness = sharpness_ * carried(wavelength_ / 2, part.grid_spacing);
+        const float half_height = half_height_ * band_limit_gain(wavelength_, part.grid_spacing);
+        const float sharpness = sharpness_ * band_limit_gain(wavelength_ / 2, part.grid_spacing);
         const std::int64_t first = numeric::floor_to_int(part.x[0] * frequency) - 1;
         const std::int64_t last = numeric::floor_to_int(part.x[part.whole() - 1] * frequency) + 2;
         const bool dense = last - first < static_cast<std::int64_t>(points);

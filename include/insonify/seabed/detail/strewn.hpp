@@ -54,18 +54,18 @@ class round_marks {
     template <int N>
     INSONIFY_INLINE void add_lanes(const stretch& part, float* values) const {
         const lattice& l = lattice_;
-        const float kept = carried(1 / l.frequency, part.grid_spacing);  // the largest span half a cell
-        if (kept == 0) return;
+        const float band_gain = band_limit_gain(1 / l.frequency, part.grid_spacing);  // the largest span half a cell
+        if (band_gain == 0) return;
         const lattice_coordinate v(l.v(part.y));
         const cell_hash::row hash = hash_[v.cell];
         visit_columns(l, part, 0, [&](std::int64_t first, std::int64_t count) INSONIFY_INLINE_LAMBDA {
             for (std::int64_t column = first; column < first + count; ++column)
-                add_mark<N>(part, values, kept, v.fraction, column, hash(column));
+                add_mark<N>(part, values, band_gain, v.fraction, column, hash(column));
         });
     }
 
     template <int N>
-    INSONIFY_INLINE void add_mark(const stretch& part, float* values, float kept, float up, std::int64_t column,
+    INSONIFY_INLINE void add_mark(const stretch& part, float* values, float band_gain, float up, std::int64_t column,
                                   std::uint64_t bits) const {
         const lattice& l = lattice_;
         const signed_pair centre(bits), traits(scramble(bits));
@@ -75,7 +75,7 @@ class round_marks {
         const float y = up - (0.5f + 0.25f * centre.b);
         const float y_square = y * y, inverse_square = 1 / (radius * radius);
         if (y_square >= radius * radius) return;
-        const float height = kept * ((chance < high_ ? mound_ : pock_) * (radius * 4));
+        const float height = band_gain * ((chance < high_ ? mound_ : pock_) * (radius * 4));
 
         const double middle = 0.5 + 0.25 * static_cast<double>(centre.a), reach = static_cast<double>(radius);
         const double left = static_cast<double>(column) + middle;

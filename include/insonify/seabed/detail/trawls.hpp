@@ -28,12 +28,12 @@ class trawl_furrows {
         require_range("trawl_marks.directions", t.directions, 1, 8, "1 to 8");
         require_range("trawl_marks.length", t.length, 1e-3f, 1e6f, "0.001 to 10^6 metres");
         if (t.density == 0 || t.depth == 0) return;
-        random_sequence draw(seed, static_cast<std::uint32_t>(stream::trawls));
-        const double turn = draw.uniform();
+        random_sequence random(seed, static_cast<std::uint32_t>(stream::trawls));
+        const double turn = random.uniform();
         // A furrow is present along half of its strip.
         const double strip = 0.5 * t.directions / static_cast<double>(t.density);
         for (int n = 0; n < t.directions; ++n) {
-            const auto heading = numeric::sin_cos_turns(turn + 0.5 * (n + 0.6 * draw.uniform()) / t.directions);
+            const auto heading = numeric::sin_cos_turns(turn + 0.5 * (n + 0.6 * random.uniform()) / t.directions);
             const double length = static_cast<double>(t.length);
             families_.push_back({heading.cosine, heading.sine, 1 / strip, 1 / length, 1 / (5.3 * length)});
         }
@@ -58,23 +58,24 @@ class trawl_furrows {
 
     template <int N>
     INSONIFY_INLINE void add_lanes(const stretch& part, float* values) const {
-        const float kept = carried(2 * width_, part.grid_spacing);  // a furrow between its berms
-        if (kept == 0) return;
+        const float band_gain = band_limit_gain(2 * width_, part.grid_spacing);  // a furrow between its berms
+        if (band_gain == 0) return;
         for (std::size_t n = 0; n < families_.size(); ++n)
-            for (std::size_t i = 0; i < part.whole(); i += N) add_family<N>(families_[n], n, kept, part, i, values + i);
+            for (std::size_t i = 0; i < part.whole(); i += N)
+                add_family<N>(families_[n], n, band_gain, part, i, values + i);
     }
 
     template <int N>
-    INSONIFY_INLINE void add_family(const family& f, std::size_t n, float kept, const stretch& part, std::size_t i,
+    INSONIFY_INLINE void add_family(const family& f, std::size_t n, float band_gain, const stretch& part, std::size_t i,
                                     float* values) const {
         using insonify::detail::lane;
         using words = lanes<std::uint32_t, N>;
         using ints = lanes<std::int32_t, N>;
         const double across = part.y * f.cosine * f.per_strip;
         const std::int64_t first = numeric::floor_to_int(across - part.x[0] * f.sine * f.per_strip);
-        lanes<float, N> off, shift, bends, sine, cosine;
+        lanes<float, N> distance, shift, bends, sine, cosine;
         ints cell;
-        locate<N>(off, cell, &part.x[i], -f.sine * f.per_strip, across, static_cast<double>(first));
+        locate<N>(distance, cell, &part.x[i], -f.sine * f.per_strip, across, static_cast<double>(first));
         words bits;
         hash_[static_cast<std::int64_t>(n)].hash_lanes(bits, words(words(cell) + static_cast<std::uint32_t>(first)));
         insonify::detail::convert(shift, ints(ints(bits << 16) >> 16));
@@ -86,28 +87,28 @@ class trawl_furrows {
         phase = phase > 0.5f ? phase - 1.0f : phase;
         phase = phase < -0.5f ? phase + 1.0f : phase;
         insonify::detail::cos_sin_turns<N>(cosine, sine, phase);
-        off = off - (0.5f + (0.5f - 2 * half_width_) * (0.7f * shift * 0x1p-15f + 0.3f * sine));
-        off = (off < 0.0f ? -off : off) * (1 / half_width_);
-        if (!insonify::detail::any(ints(off < 2.0f))) return;
+        distance = distance - (0.5f + (0.5f - 2 * half_width_) * (0.7f * shift * 0x1p-15f + 0.3f * sine));
+        distance = (distance < 0.0f ? -distance : distance) * (1 / half_width_);
+        if (!insonify::detail::any(ints(distance < 2.0f))) return;
         for (int k = 0; k < N; ++k) {
-            if (lane(off, k) >= 2) continue;
-            values[k] += kept * depth_at(f, n, lane(bits, k), lane(off, k),
-                                         part.x[i + static_cast<std::size_t>(k)] * f.cosine + part.y * f.sine);
+            if (lane(distance, k) >= 2) continue;
+            values[k] += band_gain * depth_at(f, n, lane(bits, k), lane(distance, k),
+                                              part.x[i + static_cast<std::size_t>(k)] * f.cosine + part.y * f.sine);
         }
     }
 
     /// @param bits    random bits of the strip
-    /// @param off     half widths from the furrow's middle
+    /// @param distance     half widths from the furrow's middle
     /// @param along   metres
-    float depth_at(const family& f, std::size_t n, std::uint32_t bits, float off, double along) const {
+    float depth_at(const family& f, std::size_t n, std::uint32_t bits, float distance, double along) const {
         // A strip is divided into lengths with or without a furrow, faded where they meet.
         const lattice_coordinate u(along * f.per_length + static_cast<double>(bits) * 0x1p-32);
         const cell_hash::row presence = hash_[static_cast<std::int64_t>((std::uint64_t{bits} << 8) + n + 64)];
         const auto present = [&](std::int64_t cell) { return (presence(cell) & 1) != 0 ? 1.0f : 0.0f; };
         const float strength = lerp(present(u.cell), present(u.cell + 1), fade(saturate(8 * u.fraction - 7)));
         // A bowl down to -1 that rises to a berm of 0.3, which ends at twice the half width.
-        const float inner = saturate(1 - off * off);
-        return depth_ * strength * (off < 1 ? 0.3f - 1.3f * inner * inner : 0.3f * fade(saturate(2 - off)));
+        const float inner = saturate(1 - distance * distance);
+        return depth_ * strength * (distance < 1 ? 0.3f - 1.3f * inner * inner : 0.3f * fade(saturate(2 - distance)));
     }
 
     dynamic_array<family> families_;

@@ -10,7 +10,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
-/// A heightfield on a regular grid under parallel light. Light and camera are above it (skip::facing_its_own).
+/// A heightfield on a regular grid under parallel light. Light and camera are above it (skip::facing_self).
 class grid_caster {
   public:
     template <executor E>
@@ -23,17 +23,17 @@ class grid_caster {
 
     /// Decides points [first, last), which lie on this caster and face the light, where the horizon's bounds suffice.
     /// @param into  results, from that of point `first` on
-    void decide_own(const points& at, std::size_t first, std::size_t last, decision* into, isa level) const {
+    void decide_self(const points& at, std::size_t first, std::size_t last, decision* into, isa level) const {
         insonify::detail::dispatch(kernel{*this, at, first, last, into}, level);
     }
     /// Whether it blocks the light of one of its own points that faces the light.
     /// @param p       in the frame of the light
     /// @param decide  decide(triangle): whether the triangle blocks p's light, in doubles; false for p's own triangle
     template <class Decide>
-    bool blocks_own(const glm::dvec3& p, const Decide& decide) const {
+    bool blocks_self(const glm::dvec3& p, const Decide& decide) const {
         const glm::dvec3 at = transform_point(to_mesh_, p);
-        const decision answer = bounds_.at(at);
-        if (answer != decision::undecided) return answer == decision::dark;
+        const decision result = bounds_.at(at);
+        if (result != decision::undecided) return result == decision::dark;
         return horizon_walk(bounds_, macrocells_, at).is_blocked_from_surface(decide);
     }
     /// The same for any point.
@@ -71,10 +71,10 @@ class grid_caster {
             const affine& m = caster.to_mesh_;
             for (int k = 0; k < 3; ++k)
                 p[k] = m.linear[0][k] * x + m.linear[1][k] * y + m.linear[2][k] * z + m.offset[k];
-            lanes<std::int64_t, N> answers;
-            caster.bounds_.decide<N>(answers, p);
+            lanes<std::int64_t, N> decisions;
+            caster.bounds_.decide<N>(decisions, p);
             for (int k = 0; k < N; ++k)
-                into[i - first + static_cast<std::size_t>(k)] = static_cast<decision>(lane(answers, k));
+                into[i - first + static_cast<std::size_t>(k)] = static_cast<decision>(lane(decisions, k));
         }
     };
 

@@ -165,11 +165,11 @@ class horizon_bounds {
                    isa level, E& ex)
         : grid_(lattice, travel),
           u_(m, box, grid_, ex),
-          lattice_error_(2 * lattice.off + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
-        const double relief = grid_.drop * (u_.highest_z - u_.lowest_z);
+          lattice_error_(2 * lattice.lattice_error + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
+        const double relief = grid_.u_per_metre * (u_.highest_z - u_.lowest_z);
         const double size =
-            grid_.columns + grid_.drop * (std::max)(numeric::abs(u_.highest_z), numeric::abs(u_.lowest_z));
-        margin_ = 0x1p-21 * size + 4 * lattice.off * (2 + relief);
+            grid_.columns + grid_.u_per_metre * (std::max)(numeric::abs(u_.highest_z), numeric::abs(u_.lowest_z));
+        margin_ = 0x1p-21 * size + 4 * lattice.lattice_error * (2 + relief);
         first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
         strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;
         bounds_ = insonify::detail::uninitialized_array<float>(
@@ -187,7 +187,7 @@ class horizon_bounds {
     /// Decides N points.
     /// @param p  x, y and z: on the mesh, on a side that faces the light, in the mesh's frame
     template <int N>
-    INSONIFY_INLINE void decide(insonify::detail::lanes<std::int64_t, N>& answer,
+    INSONIFY_INLINE void decide(insonify::detail::lanes<std::int64_t, N>& result,
                                 const insonify::detail::lanes<double, N> (&p)[3]) const {
         using namespace insonify::detail;
         using reals = lanes<double, N>;
@@ -197,7 +197,7 @@ class horizon_bounds {
         const reals strip = grid_.y_of.x * dx + grid_.y_of.y * dy - grid_.slope * x - static_cast<double>(first_strip_);
         const bits exists = bits(x >= 0.0) & bits(x <= static_cast<double>(grid_.columns - 1)) &
                             bits(strip >= lattice_error_) & bits(strip < strips_ - lattice_error_);
-        const reals u = x + grid_.drop * p[2];
+        const reals u = x + grid_.u_per_metre * p[2];
         // A point close to a line of the lattice may lie in a cell beyond it.
         const reals column = exists ? x : reals{}, ahead = exists ? x + lattice_error_ : reals{};
         const reals low = exists ? strip - lattice_error_ : reals{}, high = exists ? strip + lattice_error_ : reals{};
@@ -209,15 +209,15 @@ class horizon_bounds {
         gather<N>(dark, [&](int k) { return static_cast<double>(bound_at(column, k).dark_below); });
         gather<N>(lit, [&](int k) { return static_cast<double>(bound_at(ahead, k).lit_above); });
         const bits is_dark = exists & bits(u < dark - margin_), is_lit = exists & bits(u > lit + margin_);
-        answer = is_lit ? bits{} + static_cast<std::int64_t>(decision::lit)
+        result = is_lit ? bits{} + static_cast<std::int64_t>(decision::lit)
                         : bits{} + static_cast<std::int64_t>(decision::undecided);
-        answer = is_dark ? bits{} + static_cast<std::int64_t>(decision::dark) : answer;
+        result = is_dark ? bits{} + static_cast<std::int64_t>(decision::dark) : result;
     }
     /// The same for one point.
     decision at(const glm::dvec3& p) const {
-        std::int64_t answer;
-        decide<1>(answer, {p.x, p.y, p.z});
-        return static_cast<decision>(answer);
+        std::int64_t result;
+        decide<1>(result, {p.x, p.y, p.z});
+        return static_cast<decision>(result);
     }
 
     const lit_grid& grid() const { return grid_; }

@@ -18,9 +18,9 @@ inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
 /// Maps points of a light's plane to where their rays meet the plane z = 0 of a mesh, in grid steps.
-class ray_feet {
+class datum_intercepts {
   public:
-    ray_feet(const light_plane& plane, const affine& placement, const lit_grid& grid) {
+    datum_intercepts(const light_plane& plane, const affine& placement, const lit_grid& grid) {
         const auto seen = [&](double x, double y) { return glm::dvec2(plane(transform_point(placement, {x, y, 0}))); };
         origin_ = seen(0, 0);
         const glm::dvec2 x = seen(1, 0) - origin_, y = seen(0, 1) - origin_;
@@ -30,8 +30,8 @@ class ray_feet {
         grid_ = &grid;
     }
     glm::dvec2 operator()(const glm::dvec2& at) const {
-        const glm::dvec2 off = at - origin_;
-        return grid_->steps({x_of_.x * off.x + x_of_.y * off.y, y_of_.x * off.x + y_of_.y * off.y});
+        const glm::dvec2 offset = at - origin_;
+        return grid_->steps({x_of_.x * offset.x + x_of_.y * offset.y, y_of_.x * offset.x + y_of_.y * offset.y});
     }
 
     /// Bounds of the images of a rectangle.
@@ -59,7 +59,7 @@ class horizon_triangles {
                       const glm::dvec3& eye)
         : horizon_(horizon), grid_(horizon.grid()) {
         eye_ = grid_.steps(glm::dvec2(eye));
-        eye_u_ = eye_.x + grid_.drop * eye.z;
+        eye_u_ = eye_.x + grid_.u_per_metre * eye.z;
         // sin(grazing angle) = slope of u along the light x sin(elevation) / |normal of the facet|. `steepest` is an
         // upper bound of that |normal|.
         const double relief = horizon.u().highest_z - horizon.u().lowest_z;
@@ -68,7 +68,7 @@ class horizon_triangles {
         const double steepest = 1 + 2 * relief * steps_per_metre;
         const double sine = -travel.z / numeric::square_root(numeric::dot(travel, travel));
         constexpr double min_sine = 0x1p-20;  // triangles at a smaller grazing angle are left to the test of points
-        rise_ = horizon.margin() + min_sine * steepest / sine;
+        min_facing_slope_ = horizon.margin() + min_sine * steepest / sine;
         // `lower` has its right angle at `apex` and leaves out the opposite corner. It is the first triangle of a cell
         // if the mesh's first triangle leaves out that corner too.
         const std::ptrdiff_t corner = grid_.corner(0, 0);
@@ -80,10 +80,10 @@ class horizon_triangles {
     }
 
     /// Writes the results of some columns of cells, by triangle.
-    void find(int first_column, int last_column, decision* into, isa level) const {
+    void classify(int first_column, int last_column, decision* into, isa level) const {
         for (int left = first_column; left < last_column; left += wide)
             for (int bottom = 0; bottom < grid_.rows - 1; bottom += tall) {
-                answers found;
+                decisions found;
                 const int right = (std::min)(left + wide, last_column), top = (std::min)(bottom + tall, grid_.rows - 1);
                 insonify::detail::dispatch(kernel{*this, left, bottom, right, top, found}, level);
                 write(found, left, bottom, right, top, into);
@@ -93,16 +93,16 @@ class horizon_triangles {
     /// Discards the results of cells that another caster may shade, within some columns: those whose rays pass through
     /// a rectangle of the plane z = 0.
     /// @param lower, upper  corners of the rectangle, in the grid's steps
-    void forget(const glm::dvec2& lower, const glm::dvec2& upper, int first_column, int last_column,
-                decision* into) const {
+    void reset_to_undecided(const glm::dvec2& lower, const glm::dvec2& upper, int first_column, int last_column,
+                            decision* into) const {
         // Rays through the rectangle stay within these columns and, in each, these rows, at all heights of the relief.
         const double lowest_z = horizon_.u().lowest_z, highest_z = horizon_.u().highest_z;
         const double tolerance = 0x1p-8 + horizon_.margin();  // covers rounding
         const auto clamped = [](double at, int first, int last) {
             return static_cast<int>((std::min)((std::max)(at, static_cast<double>(first)), static_cast<double>(last)));
         };
-        const int left = clamped(lower.x - grid_.drop * highest_z - tolerance - 1, first_column, last_column),
-                  right = clamped(upper.x - grid_.drop * lowest_z + tolerance + 1, first_column, last_column);
+        const int left = clamped(lower.x - grid_.u_per_metre * highest_z - tolerance - 1, first_column, last_column),
+                  right = clamped(upper.x - grid_.u_per_metre * lowest_z + tolerance + 1, first_column, last_column);
         for (int x = left; x < right; ++x) {
             const int bottom = clamped(lower.y - grid_.slope * (upper.x - x) - tolerance - 2, 0, grid_.rows - 1),
                       top = clamped(upper.y - grid_.slope * (lower.x - x - 1) + tolerance + 2, 0, grid_.rows - 1);
@@ -122,12 +122,12 @@ class horizon_triangles {
     static constexpr int wide = 32, tall = 256;
 
     /// Results for the cells of a part.
-    struct answers {
+    struct decisions {
         std::int32_t of[wide][tall];  ///< by column, then row: of the first triangle, and of the second << 8
     };
 
     /// The results of a part in the order of the mesh.
-    void write(const answers& found, int left, int bottom, int right, int top, decision* into) const {
+    void write(const decisions& found, int left, int bottom, int right, int top, decision* into) const {
         for (int y = bottom; y < top; ++y)
             for (int x = left; x < right; ++x) {
                 const std::int32_t both = found.of[x - left][y - bottom];
@@ -140,7 +140,7 @@ class horizon_triangles {
     struct kernel {
         const horizon_triangles& whole;
         int left, bottom, right, top;
-        answers& into;
+        decisions& into;
 
         template <int N>
         INSONIFY_INLINE void run() const {
@@ -185,8 +185,13 @@ class horizon_triangles {
             const floats dy = static_cast<float>(whole.eye_.y - y) - row;
             const floats error = 4 * margin * ((2 + numeric::abs(dx)) + (dy < 0.0f ? 0.0f - dy : dy));
             const floats eye = static_cast<float>(whole.eye_u_) - error;
-            const triangle_lanes<N> known_of{
-                dark_below, lit_above, eye, dy, dx, static_cast<float>(grid.slope), static_cast<float>(whole.rise_)};
+            const triangle_lanes<N> known_of{dark_below,
+                                             lit_above,
+                                             eye,
+                                             dy,
+                                             dx,
+                                             static_cast<float>(grid.slope),
+                                             static_cast<float>(whole.min_facing_slope_)};
             lanes<std::int32_t, N> lower, upper;
             if (grid.is_rising) {
                 known_of(lower, a, b, d, b - a, d - b, a);
@@ -209,23 +214,24 @@ class horizon_triangles {
         floats dark_below, lit_above;  ///< bounds: dark below the first, lit above the second
         floats eye;                    ///< u of the camera less the error bound; it is above planes of smaller u
         floats dy;                     ///< from the cell to the camera
-        float dx, slope, enough;
+        float dx, slope, min_facing_slope;
 
         /// @param along_x, along_y  how u rises in it
         /// @param base              u of its plane at the cell's corner (0, 0)
-        INSONIFY_INLINE void operator()(ints& answer, const floats& p, const floats& q, const floats& r,
+        INSONIFY_INLINE void operator()(ints& result, const floats& p, const floats& q, const floats& r,
                                         const floats& along_x, const floats& along_y, const floats& base) const {
             floats largest = p > q ? p : q, smallest = p < q ? p : q;
             largest = largest > r ? largest : r;
             smallest = smallest < r ? smallest : r;
-            const floats rise = along_x + slope * along_y;
+            const floats u_slope = along_x + slope * along_y;
             const ints is_above = ints(base + along_x * dx + along_y * dy < eye);
-            const ints is_facing = ints(rise > enough), is_averted = ints(rise < 0.0f - enough);
-            const ints is_dark = (is_above & is_averted) | ((is_above | is_facing) & ints(largest < dark_below));
+            const ints is_facing = ints(u_slope > min_facing_slope),
+                       is_back_facing = ints(u_slope < 0.0f - min_facing_slope);
+            const ints is_dark = (is_above & is_back_facing) | ((is_above | is_facing) & ints(largest < dark_below));
             const ints is_lit = is_above & is_facing & ints(smallest > lit_above);
-            answer = is_lit ? ints{} + static_cast<std::int32_t>(decision::lit)
+            result = is_lit ? ints{} + static_cast<std::int32_t>(decision::lit)
                             : ints{} + static_cast<std::int32_t>(decision::undecided);
-            answer = is_dark ? ints{} + static_cast<std::int32_t>(decision::dark) : answer;
+            result = is_dark ? ints{} + static_cast<std::int32_t>(decision::dark) : result;
         }
     };
 
@@ -233,7 +239,7 @@ class horizon_triangles {
     const lit_grid& grid_;
     glm::dvec2 eye_{0};  ///< in the grid's steps
     double eye_u_ = 0;
-    double rise_ = 0;  ///< slope of u along the light, per column, above which a triangle faces it
+    double min_facing_slope_ = 0;  ///< slope of u along the light, per column, above which a triangle faces it
     bool lower_is_first_ = true;
 };
 

@@ -95,7 +95,7 @@ class horizon_walk {
           grid_(horizon.grid()),
           x_(grid_.steps(glm::dvec2(p)).x),
           w_(grid_.steps(glm::dvec2(p)).y - grid_.slope * x_),
-          u_(x_ + grid_.drop * p.z),
+          u_(x_ + grid_.u_per_metre * p.z),
           lattice_error_(horizon.lattice_error()) {}
 
     /// Whether the surface blocks the ray of a point on it, where it faces the light.
@@ -155,7 +155,7 @@ class horizon_walk {
         for (bool is_first = true; column >= 0; --column, is_first = false) {
             // Rows of cells that the ray crosses in this column.
             const double low = row_at(column), high = low + grid_.slope;
-            if (high < -lattice_error_ || column + 1 + grid_.drop * highest_z < u_lower_bound) return false;
+            if (high < -lattice_error_ || column + 1 + grid_.u_per_metre * highest_z < u_lower_bound) return false;
             if (!is_first && is_above) {
                 const decision rest = decide_before(column);
                 if (rest != decision::undecided) return rest == decision::dark;

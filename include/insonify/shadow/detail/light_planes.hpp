@@ -27,26 +27,26 @@ class light_plane {
                 {-frame.travel().y, frame.travel().x, 0},
                 {0, 0, 1}} {}
     /// @param face  0 to 5: along +x, -x, +y, -y, +z, -z of the light
-    light_plane(const point_light& light, int face) : origin_(light.position), is_near_(true) {
+    light_plane(const point_light& light, int face) : origin_(light.position), is_point_light_(true) {
         const int axis = face / 2;
         rows_[0][(axis + 1) % 3] = rows_[1][(axis + 2) % 3] = 1;
         rows_[2][axis] = face % 2 == 0 ? 1 : -1;
     }
 
-    bool is_near() const { return is_near_; }
+    bool is_point_light() const { return is_point_light_; }
     /// Whether triangles that are counter-clockwise from the light are clockwise on the plane.
-    bool is_mirrored() const { return is_near_ == (numeric::dot(rows_[0], numeric::cross(rows_[1], rows_[2])) > 0); }
+    bool is_mirrored() const {
+        return is_point_light_ == (numeric::dot(rows_[0], numeric::cross(rows_[1], rows_[2])) > 0);
+    }
 
-    /// (u, v, height) of a point; of a near light before the division, (u d, v d, d) with the depth d.
+    /// (u, v, height) of a point; of a point light before the division, (u d, v d, d) with the depth d.
     glm::dvec3 operator()(const glm::dvec3& p) const { return direction(p - origin_); }
     /// The same for a difference of points.
     glm::dvec3 direction(const glm::dvec3& d) const {
         return {numeric::dot(rows_[0], d), numeric::dot(rows_[1], d), numeric::dot(rows_[2], d)};
     }
     /// After the division. Heights are 1 / depth.
-    static glm::dvec3 seen(const glm::dvec3& before) {
-        return {before.x / before.z, before.y / before.z, 1 / before.z};
-    }
+    static glm::dvec3 perspective_divide(const glm::dvec3& p) { return {p.x / p.z, p.y / p.z, 1 / p.z}; }
 
     /// Number of the cube's face, seen from a point light, that a point lies over.
     static int face_of(const point_light& light, const glm::dvec3& p) {
@@ -58,11 +58,11 @@ class light_plane {
   private:
     glm::dvec3 rows_[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
     glm::dvec3 origin_{0};
-    bool is_near_ = false;
+    bool is_point_light_ = false;
 };
 
-/// Whether anything within a box may lie over a plane of a near light.
-inline bool is_seen(const light_plane& plane, const bounding_box& box) {
+/// Whether anything within a box may lie over a plane of a point light.
+inline bool is_visible_on(const light_plane& plane, const bounding_box& box) {
     bool outside[4] = {true, true, true, true};
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 p = plane(box.corner(i));
@@ -71,8 +71,8 @@ inline bool is_seen(const light_plane& plane, const bounding_box& box) {
     return !(outside[0] || outside[1] || outside[2] || outside[3]);
 }
 
-/// The part of a near light's plane that a box is over.
-inline std::pair<glm::dvec2, glm::dvec2> seen_part(const light_plane& plane, const bounding_box& box) {
+/// The part of a point light's plane that a box is over.
+inline std::pair<glm::dvec2, glm::dvec2> visible_extent(const light_plane& plane, const bounding_box& box) {
     glm::dvec2 lower(1), upper(-1);
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 p = plane(box.corner(i));

@@ -29,7 +29,7 @@ class light_rays {
             source_ = light_frame(*parallel).to_light();
         } else {
             source_ = std::get<point_light>(light).position;
-            is_near_ = true;
+            is_point_light_ = true;
             for (int i = 0; i < 3; ++i) {
                 insonify::detail::require(numeric::is_finite(source_[i]), "point_light.position", source_[i],
                                           "finite coordinates");
@@ -39,7 +39,7 @@ class light_rays {
     }
 
     /// Vector from a point to the light: a unit vector for parallel light, the full offset for a point light.
-    glm::dvec3 toward(const glm::dvec3& p) const { return is_near_ ? source_ - p : source_; }
+    glm::dvec3 toward(const glm::dvec3& p) const { return is_point_light_ ? source_ - p : source_; }
 
     /// Whether the triangle (a, b, c) blocks the light of `from`.
     bool blocks(const glm::dvec3& corner_a, const glm::dvec3& corner_b, const glm::dvec3& corner_c,
@@ -70,13 +70,13 @@ class light_rays {
         const double tolerance = 0x1p-40 * size(normal);
         if (!(sign * along > 0 && sign * behind > reach_ * tolerance)) return false;
         // A triangle that contains the light does not block it.
-        return !is_near_ || sign * (along - behind) > light_reach_ * tolerance;
+        return !is_point_light_ || sign * (along - behind) > light_reach_ * tolerance;
     }
 
   private:
     glm::dvec3 source_;           ///< direction, or position
     double reach_, light_reach_;  ///< of points, and with the light
-    bool is_near_ = false;
+    bool is_point_light_ = false;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS

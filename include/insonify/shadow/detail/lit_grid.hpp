@@ -1,6 +1,6 @@
 // A regular grid re-indexed so that parallel light crosses its columns in ascending order, and the u of its vertices.
 //
-// In grid steps, all points of a ray have the same u = X + drop z, the X at which the ray meets z = 0.
+// In grid steps, all points of a ray have the same u = X + u_per_metre z, the X at which the ray meets z = 0.
 #pragma once
 
 #include <insonify/core/detail/uninitialized.hpp>
@@ -26,7 +26,7 @@ struct lit_grid {
     int columns = 0, rows = 0;  ///< vertices along X, and along Y
     bool is_rising = true;      ///< cells are cut from (X, Y) to (X + 1, Y + 1), or else from (X, Y + 1) to (X + 1, Y)
     double slope = 0;           ///< in [0, 1]
-    double drop = 0;            ///< columns that light crosses per metre of descent
+    double u_per_metre = 0;     ///< increase of X along a ray per metre of descent
     std::ptrdiff_t first = 0, along = 1, across = 1;  ///< index of vertex (0, 0) in the mesh, and strides
     std::ptrdiff_t pitch = 1;                         ///< vertices from one row of the mesh to the next
     std::ptrdiff_t first_cell = 0, cell_along = 1, cell_across = 1;  ///< the same for cells
@@ -64,7 +64,7 @@ struct lit_grid {
         turn(travel_x, columns, along, x);
         turn(travel_y, rows, across, y);
         slope = travel_x > 0 ? travel_y / travel_x : 0;
-        drop = travel_x / -travel.z;
+        u_per_metre = travel_x / -travel.z;
         x_of = glm::dvec2(y.y, -y.x) / cross(x, y);
         y_of = glm::dvec2(-x.y, x.x) / cross(x, y);
         // A row has one cell less than vertices.
@@ -106,7 +106,7 @@ struct grid_u {
           highest_z(bounds.upper.z) {
         // In squares of vertices, so that both reads and writes are contiguous.
         constexpr int square = 64;
-        const auto drop = static_cast<float>(grid.drop);
+        const auto u_per_metre = static_cast<float>(grid.u_per_metre);
         bulk_ranges(ex, static_cast<std::size_t>(grid.columns), square, [&](std::size_t from, std::size_t to) {
             const auto left = static_cast<int>(from), right = static_cast<int>(to);
             for (int x = left; x < right; ++x) {
@@ -115,7 +115,7 @@ struct grid_u {
             }
             const glm::vec3* const first = m.positions.data() + grid.first;
             const auto set = [&](int x, int y) {
-                column(x)[y] = static_cast<float>(x) + drop * first[x * grid.along + y * grid.across].z;
+                column(x)[y] = static_cast<float>(x) + u_per_metre * first[x * grid.along + y * grid.across].z;
             };
             for (int bottom = 0; bottom < grid.rows; bottom += square) {
                 const int top = (std::min)(bottom + square, grid.rows);

@@ -43,7 +43,7 @@ struct alignas(16) plane_vertex {
     float u, v, height;
     float state;  ///< 0, or one of the following
 
-    static constexpr float behind = 1;    ///< on the other side of a near light
+    static constexpr float behind = 1;    ///< on the other side of a point light
     static constexpr float too_near = 2;  ///< at a depth from 0 to min_depth: not projected
     static constexpr float not_finite = 3;
 };
@@ -63,7 +63,7 @@ struct plane_vertices_kernel {
         std::size_t i = 0;
 #if INSONIFY_SIMD
         if constexpr (Width > 1)
-            if (!plane.is_near())
+            if (!plane.is_point_light())
                 for (; i + 4 < count; i += 4) four(i);
 #endif
         for (; i < count; ++i) one(i);
@@ -76,19 +76,19 @@ struct plane_vertices_kernel {
             vertices[i] = {0, 0, 0, plane_vertex::not_finite};
             return;
         }
-        if (plane.is_near() && !(p.z >= min_depth)) {
+        if (plane.is_point_light() && !(p.z >= min_depth)) {
             vertices[i] = {0, 0, 0, p.z < 0 ? plane_vertex::behind : plane_vertex::too_near};
             return;
         }
-        const glm::dvec3 seen = plane.is_near() ? light_plane::seen(p) : p;
-        vertices[i] = {static_cast<float>(seen.x - lower.x), static_cast<float>(seen.y - lower.y),
-                       static_cast<float>(seen.z), 0};
+        const glm::dvec3 projected = plane.is_point_light() ? light_plane::perspective_divide(p) : p;
+        vertices[i] = {static_cast<float>(projected.x - lower.x), static_cast<float>(projected.y - lower.y),
+                       static_cast<float>(projected.z), 0};
     }
 #if INSONIFY_SIMD
     INSONIFY_INLINE void four(std::size_t i) const {
         using namespace insonify::detail;
         using reals = lanes<double, 4>;
-        lanes<float, 4> position[3], seen[4], rows[4];
+        lanes<float, 4> position[3], projected[4], rows[4];
         transpose_threes(position, &positions[i]);
         reals p[3], bad{};
         for (int axis = 0; axis < 3; ++axis) convert(p[axis], position[axis]);
@@ -97,11 +97,11 @@ struct plane_vertices_kernel {
             const reals sum = to_plane.linear[0][row] * p[0] + to_plane.linear[1][row] * p[1] +
                               to_plane.linear[2][row] * p[2] + offset;
             bad = bad + (sum - sum);
-            convert(seen[row], sum);
+            convert(projected[row], sum);
         });
         const reals state = bad == 0.0 ? reals{} : reals{} + static_cast<double>(plane_vertex::not_finite);
-        convert(seen[3], state);
-        transpose_fours<4>(rows, seen);
+        convert(projected[3], state);
+        transpose_fours<4>(rows, projected);
         for (int k = 0; k < 4; ++k) store(&vertices[i + static_cast<std::size_t>(k)].u, rows[k]);
     }
 #endif
@@ -217,7 +217,7 @@ struct tile_assembly_kernel {
         }
     }
 
-    /// Whether a triangle that reaches behind a near light lies beyond one side of the pyramid from the light through
+    /// Whether a triangle that reaches behind a point light lies beyond one side of the pyramid from the light through
     /// the plane's square: no ray to the light meets it there. The margin covers rounding.
     INSONIFY_RARE bool is_beside_pyramid(const glm::uvec3& triangle) const {
         glm::dvec3 p[3];

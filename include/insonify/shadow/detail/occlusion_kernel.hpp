@@ -27,8 +27,8 @@ struct occlusion_kernel {
     std::span<const insonify::detail::triangle_run> runs;
     std::uint32_t number;  ///< of the caster
     skip may_skip;
-    bool is_turned;  ///< triangles that face the light are clockwise
-    float error;     ///< of coordinates on the plane, before they are rounded to float
+    bool front_is_clockwise;  ///< triangles that face the light are clockwise
+    float error;              ///< of coordinates on the plane, before they are rounded to float
     receiver_cells& receivers;
     const Decide& decide;
 
@@ -64,9 +64,9 @@ struct occlusion_kernel {
             t.range(low, high, axis);
             const float lower = receivers.lower()[axis], scale = receivers.scale()[axis];
             const float last_cell = static_cast<float>(axis == 0 ? receivers.columns() - 1 : receivers.rows() - 1);
-            const floats far_off = high < 0.0f - low ? 0.0f - low : high;
-            size = far_off > size ? far_off : size;
-            const floats margin = 0x1p-20f * (far_off + receivers.largest()) + error;
+            const floats largest_coordinate = high < 0.0f - low ? 0.0f - low : high;
+            size = largest_coordinate > size ? largest_coordinate : size;
+            const floats margin = 0x1p-20f * (largest_coordinate + receivers.largest()) + error;
             const floats f = (low - margin - lower) * scale, l = (high + margin - lower) * scale;
             missed |= ints(f >= last_cell + 1.0f) | ints(l < 0.0f);
             const ints behind = ints(t.state > 0.0f);
@@ -76,38 +76,43 @@ struct occlusion_kernel {
         });
         floats low, high;
         t.range(low, high, 2);
-        const floats height_off = 0x1.2p-24f * (high > 0.0f - low ? high : 0.0f - low) + height_error_of_receivers();
-        missed |= ints(high + 2.0f * height_off < receivers.lowest()) & ints(t.state == 0.0f);  // below all receivers
+        const floats height_rounding =
+            0x1.2p-24f * (high > 0.0f - low ? high : 0.0f - low) + height_error_of_receivers();
+        missed |=
+            ints(high + 2.0f * height_rounding < receivers.lowest()) & ints(t.state == 0.0f);  // below all receivers
         floats ab[3], ac[3];
         unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
             ab[axis] = t.b[axis] - t.a[axis];
             ac[axis] = t.c[axis] - t.a[axis];
         });
         floats area = ab[0] * ac[1] - ab[1] * ac[0];
-        const floats area_off = 0x1p-20f * (size + receivers.largest()) * (extent[0] + extent[1]);
-        const ints facing = ints((is_turned ? 0.0f - area : area) > area_off) & ints(t.state == 0.0f);
+        const floats area_error = 0x1p-20f * (size + receivers.largest()) * (extent[0] + extent[1]);
+        const ints facing = ints((front_is_clockwise ? 0.0f - area : area) > area_error) & ints(t.state == 0.0f);
         const bool all_skip = may_skip == skip::facing
-                                  ? !receivers.may_be_on_averted_side(number)
-                                  : may_skip == skip::facing_its_own && receivers.are_on_lit_side(number);
+                                  ? !receivers.may_be_on_back_side(number)
+                                  : may_skip == skip::facing_self && receivers.are_on_lit_side(number);
         if (all_skip) missed |= facing;
-        const unsigned open = ~movemask<N>(missed) & ((2u << (count - 1)) - 1);
-        if (open == 0) return;
+        const unsigned unblocked = ~movemask<N>(missed) & ((2u << (count - 1)) - 1);
+        if (unblocked == 0) return;
         const unsigned some_skip = may_skip != skip::nothing ? movemask<N>(facing) : 0;
         // Counter-clockwise on the plane.
-        const ints turned = ints(area < 0.0f);
+        const ints is_clockwise = ints(area < 0.0f);
         unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
             const floats other = ab[axis];
-            ab[axis] = turned ? ac[axis] : ab[axis];
-            ac[axis] = turned ? other : ac[axis];
+            ab[axis] = is_clockwise ? ac[axis] : ab[axis];
+            ac[axis] = is_clockwise ? other : ac[axis];
         });
-        area = turned ? 0.0f - area : area;
-        // A coordinate is off by half a unit in the last place, a difference by twice as much; two products round.
-        const floats off = 0x1.2p-24f * (size > receivers.largest() ? size : floats{} + receivers.largest()) + error;
+        area = is_clockwise ? 0.0f - area : area;
+        // The rounding error of a coordinate is half a unit in the last place, of a difference twice that; the two
+        // products add their own.
+        const floats coordinate_error =
+            0x1.2p-24f * (size > receivers.largest() ? size : floats{} + receivers.largest()) + error;
         const floats box = extent[0] * extent[1];
-        floats edge_error = 4.5f * off * (extent[0] + extent[1]) + 0x1p-21f * box;
+        floats edge_error = 4.5f * coordinate_error * (extent[0] + extent[1]) + 0x1p-21f * box;
         const floats slopes = (ab[2] < 0.0f ? 0.0f - ab[2] : ab[2]) + (ac[2] < 0.0f ? 0.0f - ac[2] : ac[2]);
-        floats height_error = (edge_error + 0x1p-20f * box) * slopes + 10.0f * box * height_off;
-        const floats height_share = 3.0f * edge_error + 0x1p-21f * box;  // for each unit between a and the receiver
+        floats height_error = (edge_error + 0x1p-20f * box) * slopes + 10.0f * box * height_rounding;
+        const floats height_error_per_unit =
+            3.0f * edge_error + 0x1p-21f * box;  // per unit of height between corner a and the receiver
         edge_error = t.state == 0.0f ? edge_error : floats{} + std::numeric_limits<float>::infinity();
         height_error = t.state == 0.0f ? height_error : floats{} + std::numeric_limits<float>::infinity();
 
@@ -120,12 +125,12 @@ struct occlusion_kernel {
         });
         store(values[9], edge_error);
         store(values[10], height_error);
-        store(values[11], height_share);
+        store(values[11], height_error_per_unit);
         unroll<2>([&](int axis) INSONIFY_INLINE_LAMBDA {
             store(cells[axis], first[axis]);
             store(cells[2 + axis], last[axis]);
         });
-        for (unsigned left = open; left != 0; left &= left - 1) {
+        for (unsigned left = unblocked; left != 0; left &= left - 1) {
             const auto k = static_cast<std::size_t>(std::countr_zero(left));
             const float one[12] = {values[0][k], values[1][k], values[2][k],  values[3][k],
                                    values[4][k], values[5][k], values[6][k],  values[7][k],
@@ -164,11 +169,12 @@ struct occlusion_kernel {
             const floats to_c = t[3] * v - t[4] * u, to_b = t[7] * u - t[6] * v;  // weights of c and b, times the area
             const floats to_a = area - to_b - to_c;
             const floats above = area * height - (to_b * t[5] + to_c * t[8]);
-            const floats doubt = t[10] + t[11] * (height < 0.0f ? 0.0f - height : height);
-            const ints out = ints(to_b < -t[9]) | ints(to_c < -t[9]) | ints(to_a < -3 * t[9]) | ints(above > doubt);
-            const ints open = ints(out == 0) & ints(blocked == receiver_cells::open) &
-                              ints(column < static_cast<std::int32_t>(last - i));
-            if (!any(open)) continue;
+            const floats error_bound = t[10] + t[11] * (height < 0.0f ? 0.0f - height : height);
+            const ints out =
+                ints(to_b < -t[9]) | ints(to_c < -t[9]) | ints(to_a < -3 * t[9]) | ints(above > error_bound);
+            const ints unblocked = ints(out == 0) & ints(blocked == receiver_cells::unblocked) &
+                                   ints(column < static_cast<std::int32_t>(last - i));
+            if (!any(unblocked)) continue;
             load(mesh, receivers.mesh.data() + i);
             load(triangle, receivers.triangle.data() + i);
             const ints is_own = ints(mesh == static_cast<std::int32_t>(number));
@@ -178,9 +184,9 @@ struct occlusion_kernel {
                 skipped |= ints(lit_mesh == static_cast<std::int32_t>(number));
                 if (skips == skip::facing) skipped |= ~is_own;
             }
-            const ints tested = open & ~skipped;
-            const ints certain =
-                tested & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) & ints(above < 0.0f - doubt);
+            const ints tested = unblocked & ~skipped;
+            const ints certain = tested & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) &
+                                 ints(above < 0.0f - error_bound);
             store(casters + i, ints(certain ? ints{} + static_cast<std::int32_t>(number) : blocked));
             for (unsigned left = movemask<N>(ints(tested & ~certain)); left != 0; left &= left - 1) {
                 const std::size_t at = i + static_cast<std::size_t>(std::countr_zero(left));

@@ -80,12 +80,12 @@ class points_by_tile {
             const points& some = at[batch];
             for (std::size_t i = 0; i < some.size(); ++i) {
                 const tiled_planes::place over = planes_.of(some[i]);
-                if (over.plane == nullptr || over.occupant == tile_occupants::none) continue;
-                if (over.occupant != tile_occupants::several && over.occupant >= some.casters) continue;
-                const glm::dvec2 from = glm::dvec2(over.seen) - over.plane->tiles.lower;
+                if (over.plane == nullptr || over.caster == tile_casters::none) continue;
+                if (over.caster != tile_casters::several && over.caster >= some.casters) continue;
+                const glm::dvec2 from = glm::dvec2(over.projected) - over.plane->tiles.lower;
                 found[count] = {static_cast<float>(from.x),
                                 static_cast<float>(from.y),
-                                static_cast<float>(over.seen.z),
+                                static_cast<float>(over.projected.z),
                                 {batch, i},
                                 some.mesh[i],
                                 some.triangle[i]};

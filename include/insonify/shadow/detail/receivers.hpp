@@ -86,7 +86,7 @@ class receiver_cells {
         place.resize(room);
         for (auto* array : {&mesh, &triangle, &lit_mesh, &limit_}) array->resize(room);
         is_limited_ = false;
-        lit_ = averted_ = {};
+        lit_ = back_facing_ = {};
         next_.clear();
         next_.append(starts_);
         for (std::size_t i = 0; i < count; ++i) {
@@ -102,10 +102,10 @@ class receiver_cells {
             limit_[at] = batch.casters;
             is_limited_ = is_limited_ || batch.casters != invalid_id;
             lit_mesh[at] = batch.face_light ? r.mesh : invalid_id;
-            (batch.face_light ? lit_ : averted_).include(r.mesh);
+            (batch.face_light ? lit_ : back_facing_).include(r.mesh);
         }
         for (std::size_t i = count; i < room; ++i) u[i] = v[i] = height[i] = 0;
-        caster.assign(room, open);
+        caster.assign(room, unblocked);
     }
 
     int columns() const { return columns_; }
@@ -119,16 +119,16 @@ class receiver_cells {
     /// No coordinate u or v is larger.
     float largest() const { return largest_; }
     /// Whether all lie where a caster faces the light.
-    bool are_on_lit_side(std::uint32_t number) const { return averted_.empty() && lit_.is_only(number); }
+    bool are_on_lit_side(std::uint32_t number) const { return back_facing_.empty() && lit_.is_only(number); }
     /// Whether some may lie where a caster faces away from the light.
-    bool may_be_on_averted_side(std::uint32_t number) const { return averted_.contains(number); }
-    /// Closes the open receivers that are tested against casters below this index only (points::casters).
-    void close(std::uint32_t casters) {
+    bool may_be_on_back_side(std::uint32_t number) const { return back_facing_.contains(number); }
+    /// Excludes unblocked receivers from tests against this caster and later ones, by their limit (points::casters).
+    void exclude_from(std::uint32_t casters) {
         if (!is_limited_) return;
         for (std::size_t i = 0; i < size(); ++i)
-            if (limit_[i] <= casters && caster[i] == open) caster[i] = closed;
+            if (limit_[i] <= casters && caster[i] == unblocked) caster[i] = excluded;
     }
-    static constexpr std::int32_t open = -1, closed = -2;
+    static constexpr std::int32_t unblocked = -1, excluded = -2;
     /// Receivers of the cells [first, last] of a row lie from start(row, first) up to start(row, last + 1).
     std::uint32_t start(int row, int column) const {
         return starts_[static_cast<std::size_t>(row * columns_ + column)];
@@ -138,7 +138,7 @@ class receiver_cells {
     dynamic_array<batch_index> place;
     dynamic_array<std::uint32_t> mesh, triangle;
     dynamic_array<std::uint32_t> lit_mesh;  ///< the mesh of a point whose facet faces the light, or invalid_id
-    dynamic_array<std::int32_t> caster;     ///< that blocks it, or open, or closed
+    dynamic_array<std::int32_t> caster;     ///< that blocks it, or unblocked, or excluded
 
   private:
     static constexpr int max_rows = 128;
@@ -155,7 +155,7 @@ class receiver_cells {
     glm::vec2 lower_{0}, scale_{1}, cell_{1};
     float lowest_ = 0, highest_ = 0, largest_ = 0;
     bool is_limited_ = false;
-    mesh_range lit_, averted_;  ///< meshes of points that face the light, and of those that face away
+    mesh_range lit_, back_facing_;  ///< meshes of points that face the light, and of those that face away
     dynamic_array<std::uint32_t> starts_, next_, limit_;
     dynamic_array<std::uint16_t> keys_;
 };

@@ -4,7 +4,7 @@
 #include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/shadow/detail/light_planes.hpp>
 #include <insonify/shadow/detail/occluders.hpp>
-#include <insonify/shadow/detail/tile_occupants.hpp>
+#include <insonify/shadow/detail/tile_casters.hpp>
 #include <insonify/shadow/policy.hpp>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ struct tiled_plane {
     float error = 0;  ///< of coordinates on the plane
     dynamic_array<plane_caster> casters;
     glm::dvec2 scale{};  ///< tiles per unit
-    tile_occupants occupants{};
+    tile_casters casters_of_tiles{};
 
     /// The tile that contains a point of the plane, or the nearest one.
     std::size_t tile_of(const glm::dvec3& at) const {
@@ -67,7 +67,7 @@ struct tiled_plane {
 class tiled_planes {
   public:
     explicit tiled_planes(const any_light& light) {
-        if (const auto* point = std::get_if<point_light>(&light)) near_light_ = *point;
+        if (const auto* point = std::get_if<point_light>(&light)) point_light_ = *point;
     }
     void add(tiled_plane plane) {
         starts_.push_back(tile_count() + (plane.casters.empty() ? 0 : plane.tiles.count()));
@@ -75,7 +75,7 @@ class tiled_planes {
     }
 
     bool empty() const { return planes_.empty(); }
-    bool are_near() const { return near_light_.has_value(); }
+    bool has_point_light() const { return point_light_.has_value(); }
     const tiled_plane& front() const { return planes_.front(); }
     std::size_t tile_count() const { return starts_.back(); }
 
@@ -88,21 +88,22 @@ class tiled_planes {
     /// Where a point lies.
     struct place {
         const tiled_plane* plane;  ///< null where no caster blocks its light
-        glm::dvec3 seen;           ///< on the plane, after the division
+        glm::dvec3 projected;      ///< on the plane, after the division
         std::size_t tile;          ///< among all
-        std::uint32_t occupant;    ///< of the tile, see tile_occupants::only
+        std::uint32_t caster;      ///< of the tile, see tile_casters::only
     };
     place of(const glm::dvec3& p) const {
-        const auto face = static_cast<std::size_t>(near_light_ ? light_plane::face_of(*near_light_, p) : 0);
+        const auto face = static_cast<std::size_t>(point_light_ ? light_plane::face_of(*point_light_, p) : 0);
         const tiled_plane& on = planes_[face];
         if (on.casters.empty()) return {};
-        const glm::dvec3 before = on.plane(p), seen = near_light_ ? light_plane::seen(before) : before;
-        const std::size_t tile = on.tile_of(seen);
-        return {&on, seen, starts_[face] + tile, on.occupants.only(tile)};
+        const glm::dvec3 homogeneous = on.plane(p),
+                         projected = point_light_ ? light_plane::perspective_divide(homogeneous) : homogeneous;
+        const std::size_t tile = on.tile_of(projected);
+        return {&on, projected, starts_[face] + tile, on.casters_of_tiles.only(tile)};
     }
 
   private:
-    std::optional<point_light> near_light_;
+    std::optional<point_light> point_light_;
     dynamic_array<tiled_plane> planes_;
     dynamic_array<std::size_t> starts_{0};  ///< first tile of each plane, then their number
 };

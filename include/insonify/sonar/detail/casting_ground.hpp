@@ -28,9 +28,9 @@ inline ground_rect casting_ground(const ground_rect& points, const seabed::heigh
     ground_rect all = points;
     const double relief = range.highest - range.lowest;
     if (!(relief > 0)) return all;
-    const auto* const from_nearby = std::get_if<shadow::point_light>(&light);
+    const auto* const point = std::get_if<shadow::point_light>(&light);
     const auto light_at = [&](const glm::dvec2& disc_offset) {  // a position if it is near, else a direction
-        if (from_nearby != nullptr) return shadow::point_of_disc(from_nearby->position, disc_offset);
+        if (point != nullptr) return shadow::point_of_disc(point->position, disc_offset);
         const shadow::light_frame frame(std::get<shadow::directional_light>(light));
         return shadow::toward_disc(frame.to_light(), frame.travel(), disc_offset);
     };
@@ -41,7 +41,7 @@ inline ground_rect casting_ground(const ground_rect& points, const seabed::heigh
             for (int axis = 0; axis < 2; ++axis) {
                 for (const double from : {points.lower[axis], points.upper[axis]}) {
                     double way;
-                    if (from_nearby != nullptr) {
+                    if (point != nullptr) {
                         const double share = to.z > range.highest ? relief / (to.z - range.lowest) : 1;
                         way = share * (to[axis] - from);
                     } else {

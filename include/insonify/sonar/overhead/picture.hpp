@@ -1,4 +1,4 @@
-// Overhead pictures: their options, and the functions that draw them. The painter is in render.hpp.
+// Overhead pictures: their options, and the functions that draw them. The renderer is in render.hpp.
 #pragma once
 
 #include <insonify/core/executor.hpp>
@@ -68,12 +68,12 @@ namespace detail::inline INSONIFY_FLAGS {
 
 // Defined in render.hpp.
 template <class Shadow, class Labels, class Law, depth_precision Depth>
-class overhead_painter;
+class overhead_renderer;
 
 template <class Shadow, class Labels, class Law, depth_precision Depth>
-auto painter_of(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
-                executor_ref ex) {
-    using painter = overhead_painter<Shadow, Labels, Law, Depth>;
+auto renderer_of(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
+                 executor_ref ex) {
+    using painter = overhead_renderer<Shadow, Labels, Law, Depth>;
     static_assert(
         requires { sizeof(painter); },
         "a shadow policy, law or depth other than the built-in ones needs #include "
@@ -82,14 +82,14 @@ auto painter_of(const scene& s, const overhead& rig, const render_options<Shadow
 }
 
 template <class Shadow, class Labels, class Law, depth_precision Depth>
-frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
-                    executor_ref ex) {
-    return painter_of(s, rig, options, ex).paint(ex);
+frame<Labels> render_frame(const scene& s, const overhead& rig,
+                           const render_options<Shadow, Labels, Law, Depth>& options, executor_ref ex) {
+    return renderer_of(s, rig, options, ex).render_frame(ex);
 }
 template <class Law, depth_precision Depth>
-visibility see(const scene& s, const overhead& rig, const render_options<shadow::none, labels, Law, Depth>& options,
-               executor_ref ex) {
-    return painter_of(s, rig, options, ex).see(ex);
+visibility render_visibility(const scene& s, const overhead& rig,
+                             const render_options<shadow::none, labels, Law, Depth>& options, executor_ref ex) {
+    return renderer_of(s, rig, options, ex).render_visibility(ex);
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -103,10 +103,11 @@ using built_in = const render_options<Shadow, Labels>&;
 #define INSONIFY_PICTURES(each) \
     each(shadow::exact, labels) each(shadow::none, labels) each(shadow::exact, no_labels) each(shadow::none, no_labels)
 #define INSONIFY_PICTURE(Shadow, Labels) \
-    frame<Labels> paint(const scene& s, const overhead& rig, built_in<Shadow, Labels> options, executor_ref ex);
+    frame<Labels> render_frame(const scene& s, const overhead& rig, built_in<Shadow, Labels> options, executor_ref ex);
 INSONIFY_PICTURES(INSONIFY_PICTURE)
 #undef INSONIFY_PICTURE
-visibility see(const scene& s, const overhead& rig, built_in<shadow::none, labels> options, executor_ref ex);
+visibility render_visibility(const scene& s, const overhead& rig, built_in<shadow::none, labels> options,
+                             executor_ref ex);
 
 }  // namespace detail::inline INSONIFY_ONCE
 #endif
@@ -125,7 +126,7 @@ template <class Shadow = shadow::exact, class Labels = labels, backscatter_law L
           depth_precision Depth = depth_precision::quick, executor_argument E = serial_executor>
 frame<Labels> render(const scene& s, const overhead& rig,
                      const render_options<Shadow, Labels, Law, Depth>& options = {}, E&& ex = {}) {
-    return detail::paint(s, rig, options, executor_ref(ex));
+    return detail::render_frame(s, rig, options, executor_ref(ex));
 }
 
 /// The triangles that `render` shows with the same options.
@@ -140,7 +141,7 @@ visibility visible_triangles(const scene& s, const overhead& rig,
                                                                 .subpixel_bits = options.subpixel_bits,
                                                                 .tile = options.tile,
                                                                 .level = options.level};
-    return detail::see(s, rig, seen, executor_ref(ex));
+    return detail::render_visibility(s, rig, seen, executor_ref(ex));
 }
 
 }  // namespace INSONIFY_FLAGS

@@ -26,10 +26,10 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// A picture under construction, in the rig's frame.
 template <class Shadow, class Labels, class Law, depth_precision Depth>
-class overhead_painter {
+class overhead_renderer {
   public:
-    overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
-                     executor_ref ex)
+    overhead_renderer(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
+                      executor_ref ex)
         : scene_(s), materials_(checked_materials(s, options)), view_(rig), options_(options), bottom_(memory_of(ex)) {
         static_assert(shadow::policy<Shadow>,
                       "a shadow policy has build(casters, light, bounds, executor) const, which returns an object with "
@@ -48,7 +48,7 @@ class overhead_painter {
         }
     }
 
-    frame<Labels> paint(executor_ref ex) {
+    frame<Labels> render_frame(executor_ref ex) {
         if constexpr (casts) {
             dynamic_array<shadow::caster> casters;
             for (const drawn_object& t : targets()) casters.push_back(as_caster(view_, t.placed));
@@ -72,7 +72,7 @@ class overhead_painter {
     }
 
     /// The visibility buffer alone.
-    visibility see(executor_ref ex) {
+    visibility render_visibility(executor_ref ex) {
         draw_all(ex);
         visibility shown{image<std::uint16_t>(ids_.width(), ids_.height(), labels::no_instance), std::move(ids_)};
         for (std::size_t i = 0; i < shown.triangle.size(); ++i) {
@@ -190,7 +190,7 @@ class overhead_painter {
     }
 
     draw_options<Depth> draw_options_of(depth_load load) const {
-        return {.keep = keep_depth::larger,
+        return {.compare = depth_compare::greater,
                 .load = load,
                 .subpixel_bits = options_.subpixel_bits,
                 .tile = options_.tile,

@@ -29,7 +29,7 @@ struct overhead {
     float grazing = static_cast<float>(numeric::pi / 30);  ///< of the light on level ground, radians
     float light_azimuth = 0;  ///< direction of travel of the light, from image right towards image up, radians
     /// Distance of the light from the datum below the camera, where grazing and azimuth apply, metres. Rays of an
-    /// infinitely distant light are parallel. Near lights need `shadow::exact` or `penumbra`, and have no falloff.
+    /// infinitely distant light are parallel. Point lights need `shadow::exact` or `penumbra`, and have no falloff.
     float light_distance = std::numeric_limits<float>::infinity();
     float intensity = 4;  ///< of the light on a surface that faces it
     float sky = 0.05f;    ///< light from the upper hemisphere, without shadows
@@ -75,17 +75,17 @@ class overhead_geometry {
 
     const overhead& rig() const { return rig_; }
     const shadow::light_frame& light() const { return light_; }
-    bool has_near_light() const { return numeric::is_finite(rig_.light_distance); }
-    /// Position of a near light.
+    bool has_point_light() const { return numeric::is_finite(rig_.light_distance); }
+    /// Position of a point light.
     glm::dvec3 light_position() const { return static_cast<double>(rig_.light_distance) * light_.to_light(); }
     /// The light in the rig's frame, for shadow policies.
     shadow::any_light light_source() const {
-        if (has_near_light()) return shadow::point_light{light_position()};
+        if (has_point_light()) return shadow::point_light{light_position()};
         return shadow::directional_light{numeric::widened(rig_.light_azimuth), numeric::widened(rig_.grazing)};
     }
     /// The light along the world's axes, relative to the rig's position.
     shadow::any_light world_light() const {
-        if (has_near_light())
+        if (has_point_light())
             return shadow::point_light{numeric::product(glm::transpose(rig_from_world_.linear), light_position())};
         return shadow::directional_light{numeric::widened(rig_.light_azimuth) + numeric::widened(rig_.yaw),
                                          numeric::widened(rig_.grazing)};

@@ -78,7 +78,7 @@ frame<Labels> record(const scene& s, std::span<const ping> track, const side_sca
 /// Records pings into the caller's memory, without labels: row i of `into` becomes ping i.
 /// @param into  rig.bins columns, a row per ping; may be a part of a larger image
 /// The other parameters and errors are those of `record`; also throws invalid_input for a view of another size, which
-/// is then untouched.
+/// is then unchanged.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
 render_stats record_into(image_view<float> into, const scene& s, std::span<const ping> track,

@@ -52,8 +52,9 @@ inline void validate(const ping& p, std::string_view name = "ping") {
 /// One channel of a side-scan sonar on a straight, level track: `side_scan` for slant range, `ground_range` for ground
 /// range.
 ///
-/// A picture has a row per ping and a column per bin. Row i is ping i, the first on top (`upside_down` flips it so that
-/// up is forward). The left column is the first bin on either side, so that range grows and shadows fall to the right.
+/// A picture has a row per ping and a column per bin. Row i is ping i, the first on top (`flipped_vertically` flips it
+/// so that up is forward). The left column is the first bin on either side, so that range grows and shadows fall to the
+/// right.
 template <across_track Axis>
 struct side_scan_rig {
     static constexpr across_track axis = Axis;
@@ -159,13 +160,13 @@ class ping_frame {
     /// Horizontal world coordinates of the fan's point (x, down).
     glm::dvec2 below(double x, double down) const { return world(x, down * sine_pitch_); }
     /// (x, u, z) of a world vector.
-    glm::dvec3 turned(const glm::dvec3& v) const {
+    glm::dvec3 direction(const glm::dvec3& v) const {
         const double ahead = v.x * along_.x + v.y * along_.y;
         return {v.x * across_.x + v.y * across_.y, ahead * cosine_pitch_ + v.z * sine_pitch_,
                 v.z * cosine_pitch_ - ahead * sine_pitch_};
     }
     /// (x, u, z) of a world position.
-    glm::dvec3 operator()(const glm::dvec3& world) const { return turned(world - position_); }
+    glm::dvec3 operator()(const glm::dvec3& world) const { return direction(world - position_); }
 
   private:
     glm::dvec3 position_;

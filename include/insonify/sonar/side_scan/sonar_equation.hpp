@@ -57,11 +57,11 @@ struct vertical_beam {
     float side_lobes = 1e-3f;                                       ///< two-way power relative to that on the axis
     /// @param across, down  of the unit vector along the ray
     INSONIFY_MEMBER double over_direction(double across, double down) const {
-        double off = numeric::atan2(down, across) - static_cast<double>(tilt);
-        if (off > numeric::pi) off -= 2 * numeric::pi;
-        if (off < -numeric::pi) off += 2 * numeric::pi;
-        off /= static_cast<double>(beamwidth);
-        return static_cast<double>(side_lobes) + numeric::exp(-5.545177444479562 * off * off);  // 8 ln 2
+        double off_axis = numeric::atan2(down, across) - static_cast<double>(tilt);
+        if (off_axis > numeric::pi) off_axis -= 2 * numeric::pi;
+        if (off_axis < -numeric::pi) off_axis += 2 * numeric::pi;
+        off_axis /= static_cast<double>(beamwidth);
+        return static_cast<double>(side_lobes) + numeric::exp(-5.545177444479562 * off_axis * off_axis);  // 8 ln 2
     }
 };
 
@@ -74,8 +74,8 @@ struct horizontal_beam {
     /// Metres to either side beyond which the pattern counts as 0.
     INSONIFY_MEMBER double reach(double range) const { return range * static_cast<double>(beamwidth); }
     INSONIFY_MEMBER double pattern(double along, double range) const {
-        const double off = along / (range * static_cast<double>(beamwidth));
-        return numeric::exp(-5.545177444479562 * off * off);
+        const double off_axis = along / (range * static_cast<double>(beamwidth));
+        return numeric::exp(-5.545177444479562 * off_axis * off_axis);
     }
     /// Correlation length (1 / e) of speckle intensities along the track, metres. Two pings correlate while the sonar
     /// has moved by only a fraction of its array (phases persist) and of the footprint (scatterers persist). Gaussian
@@ -112,7 +112,7 @@ inline constexpr float min_grazing_sine = 1e-3f;
 struct flat_echo {
     double range, altitude;  ///< metres; above the datum
     double bin, spacing;     ///< metres
-    bool counts_time;        ///< bins count slant range
+    bool is_slant_range;     ///< bins count slant range
 };
 
 /// Gain that compensates spreading and absorption. Seabed whose strength does not depend on the angle comes out level,
@@ -271,7 +271,7 @@ class sonar_equation {
     INSONIFY_TAGGED double gain(const flat_echo& e, const Law& law) const {
         const auto level_at = [&](double sine) {
             const double cosine = numeric::square_root(1 - sine * sine);
-            const double length = e.counts_time ? e.bin / cosine : e.bin;
+            const double length = e.is_slant_range ? e.bin / cosine : e.bin;
             // Rays take the law from the same angle up.
             const double clamped = (std::max)(sine, static_cast<double>(detail::min_grazing_sine));
             return static_cast<double>(law(static_cast<float>(clamped))) * (sine / clamped) * length * e.spacing *

@@ -21,7 +21,7 @@ image<T> mirrored(const image<T>& source) {
 
 /// The picture rotated by 180 degrees: of a rig that faces backwards, with forward up again.
 template <class T>
-image<T> turned(const image<T>& source) {
+image<T> rotated_180(const image<T>& source) {
     image<T> out(source.width(), source.height());
     std::reverse_copy(source.pixels().begin(), source.pixels().end(), out.pixels().begin());
     return out;
@@ -29,7 +29,7 @@ image<T> turned(const image<T>& source) {
 
 /// The recording with its last ping on top: up is forward, as in overhead pictures.
 template <class Labels>
-frame<Labels> upside_down(frame<Labels> r) {
+frame<Labels> flipped_vertically(frame<Labels> r) {
     const auto flip = [](auto& picture) {
         for (int y = 0; 2 * y < picture.height() - 1; ++y)
             std::swap_ranges(picture.row(y).begin(), picture.row(y).end(),
@@ -44,11 +44,11 @@ frame<Labels> upside_down(frame<Labels> r) {
 
 /// Two pictures side by side, `gap` columns of `fill` between them.
 ///
-/// `beside(turned(port.image), starboard.image, gap)` of two overhead frames, the first with its yaw half a turn
-/// further, is the paper's stitched picture; its dead zone is the gap.
+/// For two overhead frames, the first with its yaw half a turn further, `side_by_side(rotated_180(port.image),
+/// starboard.image, gap)` is a picture of both sides; the gap stands for the blind zone below the sonar.
 /// @throws invalid_input for pictures of different heights, a negative gap or one that leaves no room for the columns
 template <class T>
-image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill = T{}) {
+image<T> side_by_side(const image<T>& left, const image<T>& right, int gap = 0, T fill = T{}) {
     detail::require_equal("right.height()", right.height(), left.height(), "the height of the left picture");
     const std::int64_t widest = (std::numeric_limits<int>::max)() - std::int64_t{left.width()} - right.width();
     detail::require_range("gap", std::int64_t{gap}, 0, widest, "0 or more, for a total width below 2^31");
@@ -78,7 +78,9 @@ frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboa
         detail::require_equal("port.labels.targets.size()", port.labels.targets.size(), starboard.labels.targets.size(),
                               "that of the starboard recording");
     frame<Labels> out;
-    const auto join = [](auto& both, const auto& left, const auto& right) { both = beside(mirrored(left), right); };
+    const auto join = [](auto& both, const auto& left, const auto& right) {
+        both = side_by_side(mirrored(left), right);
+    };
     detail::for_each_image(join, out, port, starboard);
     out.stats = port.stats;
     out.stats.seabed_samples += starboard.stats.seabed_samples;

@@ -33,13 +33,13 @@ class water_law {
 
     void prepare(const pixel_area& area) {
         first_ = area.x;
-        steady_.clear();
-        for (int i = 0; i < area.width; ++i) steady_.push_back(noise_at(range(area.x + i)) + w_.volume);
+        mean_noise_.clear();
+        for (int i = 0; i < area.width; ++i) mean_noise_.push_back(noise_at(range(area.x + i)) + w_.volume);
     }
 
     template <std::same_as<float> Pixel>
     Pixel operator()(Pixel intensity, int x, int y) {
-        Pixel sum = intensity + steady_[static_cast<std::size_t>(x - first_)];
+        Pixel sum = intensity + mean_noise_[static_cast<std::size_t>(x - first_)];
         if (w_.surface > 0) sum += surface_at(x, y);
         return sum;
     }
@@ -62,15 +62,15 @@ class water_law {
                       static_cast<double>(w_.waves) * smooth_noise(y / static_cast<double>(w_.wave_length), key_);
         }
         const double tail = (range(x) - begins_) / static_cast<double>(w_.surface_tail);
-        // The rise takes a bin.
-        const double rise = (range(x) - begins_) / static_cast<double>(w_.bin) + 1;
-        if (rise <= 0 || tail > 80) return 0;
-        return w_.surface * static_cast<float>((rise < 1 ? rise : 1.0) * (tail > 0 ? numeric::exp(-tail) : 1.0));
+        // The onset takes a bin.
+        const double onset = (range(x) - begins_) / static_cast<double>(w_.bin) + 1;
+        if (onset <= 0 || tail > 80) return 0;
+        return w_.surface * static_cast<float>((onset < 1 ? onset : 1.0) * (tail > 0 ? numeric::exp(-tail) : 1.0));
     }
 
     Water w_;
     philox_key key_;
-    dynamic_array<float> steady_;
+    dynamic_array<float> mean_noise_;
     int first_ = 0;
     std::optional<int> row_;  // of the start below; any number, as images have any origin
     double begins_ = 0;

@@ -145,11 +145,11 @@ inline void append_machinery(mesh& into, const hull& h, const hull_lines& lines,
 
 /// Plates and beams that lie in and beside a collapsed ship.
 inline void append_debris(mesh& into, const hull_lines& lines, const stretch_of_hull& part, int pieces,
-                          random_sequence& draw) {
+                          random_sequence& random) {
     for (int i = 0; i < pieces; ++i) {
-        const double u = draw.uniform(0.03, 0.97), side = draw.uniform() < 0.5 ? -1 : 1;
-        const double away = draw.uniform(0.15, 1.9), turns = draw.uniform(), tilt = draw.uniform(0.02, 0.3);
-        const double size = lines.half_beam() * draw.uniform(0.04, 0.24), shape = draw.uniform(0.06, 0.5);
+        const double u = random.uniform(0.03, 0.97), side = random.uniform() < 0.5 ? -1 : 1;
+        const double away = random.uniform(0.15, 1.9), turns = random.uniform(), tilt = random.uniform(0.02, 0.3);
+        const double size = lines.half_beam() * random.uniform(0.04, 0.24), shape = random.uniform(0.06, 0.5);
         if (!part.contains(u)) continue;
         const auto [sine, cosine] = numeric::sin_cos_turns(turns);
         const glm::dvec3 along(size * cosine, size * sine, size * tilt),

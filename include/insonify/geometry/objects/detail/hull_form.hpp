@@ -57,8 +57,8 @@ class hull_lines {
         const double keel = taper((u - 0.55) / 0.45, 1.6) * taper((0.35 - u) / 0.35, 1.5);
         const double flare = numeric::pow(w, 1.4);
         const double plan = keel + (deck - keel) * flare;
-        const double rise = w < 0.25 ? 1 - w / 0.25 : 0.0;
-        const double bilge = 0.7 + 0.3 * numeric::square_root(1 - rise * rise);
+        const double toward_keel = w < 0.25 ? 1 - w / 0.25 : 0.0;
+        const double bilge = 0.7 + 0.3 * numeric::square_root(1 - toward_keel * toward_keel);
         return (std::max)(half_beam_ * plan * bilge, 0.6 * plating_);
     }
 

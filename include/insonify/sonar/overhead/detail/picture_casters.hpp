@@ -18,7 +18,8 @@ inline bool is_within_outline(const placed_mesh& m, const glm::dvec3& p) {
     const double area = g.right.x * g.up.y - g.right.y * g.up.x;
     const double column = (from.x * g.up.y - from.y * g.up.x) / area,
                  row = (g.right.x * from.y - g.right.y * from.x) / area;
-    return column >= g.off && column <= g.columns - 1 - g.off && row >= g.off && row <= g.rows - 1 - g.off;
+    return column >= g.lattice_error && column <= g.columns - 1 - g.lattice_error && row >= g.lattice_error &&
+           row <= g.rows - 1 - g.lattice_error;
 }
 
 /// A mesh as a caster, and which of its triangles may be skipped for points that the camera sees.
@@ -36,14 +37,14 @@ inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh
         return outside;
     };
     const auto is_above = [&](const glm::dvec3& p) { return p.z > m.box.upper.z; };
-    const bool is_lit_from_above = view.has_near_light() ? is_above(from.light) : from.light.z > 0;
-    const bool is_lit_from_outside = !view.has_near_light() || is_outside(from.light);
+    const bool is_lit_from_above = view.has_point_light() ? is_above(from.light) : from.light.z > 0;
+    const bool is_lit_from_outside = !view.has_point_light() || is_outside(from.light);
     shadow::skip may_skip = shadow::skip::nothing;
     if (m.kind == surface_kind::closed && is_whole && is_outside(from.eye) && is_lit_from_outside)
         may_skip = shadow::skip::facing;
     if (m.kind == surface_kind::heightfield && is_whole && is_above(from.eye) && is_within_outline(m, from.eye) &&
         is_lit_from_above)
-        may_skip = shadow::skip::facing_its_own;
+        may_skip = shadow::skip::facing_self;
     return {m.shape, m.to_rig, m.box, may_skip, m.grid};
 }
 

@@ -32,8 +32,8 @@ struct view_from_object {
         corner_ray = transform_direction(back, view.ray(0, 0));
         right = transform_direction(back, view.ray(1, 0) - view.ray(0, 0));
         down = transform_direction(back, view.ray(0, 1) - view.ray(0, 0));
-        light = view.has_near_light() ? transform_point(back, view.light_position())
-                                      : transform_direction(back, view.light().to_light());
+        light = view.has_point_light() ? transform_point(back, view.light_position())
+                                       : transform_direction(back, view.light().to_light());
     }
 };
 
@@ -42,8 +42,8 @@ struct point_kernel {
     const drawn_object& object;
     const view_from_object& from;
     std::span<const undecided_pixel> pixels;  ///< with the ids of triangles within the object
-    bool has_near_light;
-    bool includes_averted;
+    bool has_point_light;
+    bool includes_back_facing;
     const rect& box;      ///< the tile's pixels
     std::uint32_t pitch;  ///< pixels from one row of the picture to the next
     point_list& points;
@@ -156,7 +156,7 @@ struct point_kernel {
         reals at[3], facet[3], toward[3], seen, along, size, way;
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             at[i] = a[i] + b * ab[i] + c * ac[i];
-            toward[i] = has_near_light ? from.light[i] - at[i] : reals{} + from.light[i];
+            toward[i] = has_point_light ? from.light[i] - at[i] : reals{} + from.light[i];
         });
         cross(facet, ab, ac);
         dot(seen, facet, to_eye);
@@ -173,7 +173,7 @@ struct point_kernel {
         });
         store(facing, faces);
         for (std::size_t k = 0; k < count; ++k) {
-            if (facing[k] == 0 && !includes_averted) continue;
+            if (facing[k] == 0 && !includes_back_facing) continue;
             const undecided_pixel& shown = pixels[start + k];
             points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], object.caster, shown.id,
                        static_cast<std::uint32_t>(box.y0 + shown.row) * pitch +

@@ -111,7 +111,7 @@ class sampled_bottom {
                              .origin = field_.spacing * glm::dvec2(first_),
                              .right = {field_.spacing, 0},
                              .up = {0, field_.spacing},
-                             .off = 0x1p-23 * farthest};  // rounded to float, in either direction
+                             .lattice_error = 0x1p-23 * farthest};  // rounded to float, in either direction
     }
 
     seabed::heightfield field_;

@@ -73,7 +73,7 @@ struct surface_vertex_shader {
         offset = glm::vec3(transform_point(shape.to_rig, glm::dvec3(centre)));
     }
 
-    placed_vertex<surface_varyings> operator()(const vertex& v) const {
+    vertex_output<surface_varyings> operator()(const vertex& v) const {
         const glm::vec3 position = numeric::product(linear, v.position - centre) + offset;
         return {view.clip(position), {numeric::product(normals, v.normal), position.z}};
     }
@@ -130,7 +130,7 @@ class surface_shader {
         : object_(object),
           into_(into),
           law_(law),
-          is_near_(view.has_near_light()),
+          is_point_light_(view.has_point_light()),
           left_(0.5f * static_cast<float>(1 - view.rig().size.x)),
           top_(0.5f * static_cast<float>(view.rig().size.y - 1)),
           ray_step_(static_cast<float>(view.ray_step())),
@@ -138,7 +138,7 @@ class surface_shader {
           intensity_(view.rig().intensity),
           sky_(view.rig().sky),
           ambient_(view.rig().ambient) {
-        const glm::vec3 light(is_near_ ? view.light_position() : view.light().to_light());
+        const glm::vec3 light(is_point_light_ ? view.light_position() : view.light().to_light());
         for (int i = 0; i < 3; ++i) to_light_[i] = light[i];
     }
 
@@ -157,9 +157,10 @@ class surface_shader {
         if (any(invalid)) use_facets<N>(normal, f, invalid);
         square_root<N>(length, normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
         length = length > 0.0f ? length : floats{} + 1.0f;
-        const floats turned = side / length;
+        const floats signed_inverse_length = side / length;
         point_to_light<N>(to_light, f);
-        floats sine = turned * (normal[0] * to_light[0] + normal[1] * to_light[1] + normal[2] * to_light[2]);
+        floats sine =
+            signed_inverse_length * (normal[0] * to_light[0] + normal[1] * to_light[1] + normal[2] * to_light[2]);
         sine = sine < 1.0f ? sine : floats{} + 1.0f;
         sine = sine > 0.0f ? sine : floats{};
 
@@ -176,7 +177,7 @@ class surface_shader {
         law<N>(direct, sine);
         load(intensity, intensity_), load(sky, sky_), load(ambient, ambient_);
         direct = sine > 0.0f ? reflectivity * intensity * direct : floats{};
-        const floats rest = reflectivity * (sky * (0.5f * (1.0f + turned * normal[2])) + ambient);
+        const floats rest = reflectivity * (sky * (0.5f * (1.0f + signed_inverse_length * normal[2])) + ambient);
         const floats one = floats{} + 1.0f, sum = rest + direct;
         const floats all = sum < one ? sum : one;
         if (into_.undecided == nullptr)
@@ -248,7 +249,7 @@ class surface_shader {
                                         const fragment_lanes<N, surface_varyings>& f) const {
         using floats = lanes<float, N>;
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { load(into[i], to_light_[i]); });
-        if (!is_near_) return;
+        if (!is_point_light_) return;
         floats altitude, step, column, height, square = floats{}, length;
         load(altitude, altitude_), load(step, ray_step_);
         iota<float, N>(column);
@@ -276,11 +277,11 @@ class surface_shader {
     const drawn_object& object_;
     shaded_images into_;
     Law law_;
-    bool is_near_;
+    bool is_point_light_;
     float left_, top_;           ///< from the picture's middle to the first pixel's centre, in pixels
     broadcast<float> ray_step_;  ///< see overhead_geometry::ray_step
     broadcast<float> altitude_, intensity_, sky_, ambient_;  ///< the rig's
-    broadcast<float> to_light_[3];                           ///< unit vector, or the position of a near light
+    broadcast<float> to_light_[3];                           ///< unit vector, or the position of a point light
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS

@@ -105,7 +105,7 @@ class shadow_pass {
         const rect pixels = pixels_of(tile);
         for (std::size_t i = 0; i < frames_.size(); ++i) {
             if (shown[i].empty()) continue;
-            dispatch(point_kernel{objects_[i], frames_[i], shown[i], view_.has_near_light(), labelled, pixels,
+            dispatch(point_kernel{objects_[i], frames_[i], shown[i], view_.has_point_light(), labelled, pixels,
                                   static_cast<std::uint32_t>(images_.picture.width()), into},
                      level_);
             shown[i].clear();

@@ -1,4 +1,4 @@
-// Points that pixels show and that a shadow policy tests, and the answers.
+// Visible points that a shadow policy tests in batches, and its results.
 #pragma once
 
 #include <insonify/core/detail/uninitialized.hpp>
@@ -41,15 +41,15 @@ struct point_batch {
 /// away from its back.
 class point_list {
   public:
-    std::size_t facing = 0, averted = 0;
+    std::size_t facing = 0, back_facing = 0;
 
     /// @param room         the batch to fill
     /// @param first, last  the range of it for this list
     point_list(point_batch& room, std::size_t first, std::size_t last) : room_(&room), first_(first), last_(last) {}
 
-    std::size_t size() const { return facing + averted; }
+    std::size_t size() const { return facing + back_facing; }
     shadow::points facing_points() const { return room_->part(first_, facing); }
-    shadow::points averted_points() const { return room_->part(last_ - averted, averted); }
+    shadow::points back_facing_points() const { return room_->part(last_ - back_facing, back_facing); }
     /// The pixel, its light and the caster of a point; facing ones are counted first.
     std::size_t pixel(std::size_t point) const { return room_->pixel[at(point)]; }
     float direct(std::size_t point) const { return room_->direct[at(point)]; }
@@ -57,7 +57,7 @@ class point_list {
 
     INSONIFY_INLINE void add(bool is_facing, double x, double y, double z, std::uint32_t mesh, std::uint32_t triangle,
                              std::uint32_t pixel, float direct) {
-        const std::size_t to = is_facing ? first_ + facing++ : last_ - ++averted;
+        const std::size_t to = is_facing ? first_ + facing++ : last_ - ++back_facing;
         room_->x[to] = x;
         room_->y[to] = y;
         room_->z[to] = z;
@@ -69,7 +69,7 @@ class point_list {
 
   private:
     std::size_t at(std::size_t point) const {
-        return point < facing ? first_ + point : last_ - averted + (point - facing);
+        return point < facing ? first_ + point : last_ - back_facing + (point - facing);
     }
 
     point_batch* room_;
@@ -96,14 +96,14 @@ inline shadow::points batch(shadow::points all, bool face_light, std::uint32_t t
     return all;
 }
 
-/// Visits the batches of a list, and where their answers go.
+/// Calls visit(points, results) for each batch of a list.
 template <class Visit>
 void for_each_batch(const point_list& points, const shadow::results& all, std::uint32_t targets, const Visit& visit) {
     if (points.facing > 0)
         visit(batch(points.facing_points(), true, targets),
               shadow::results{all.lit.first(points.facing), all.caster.first(points.facing)});
-    if (points.averted > 0)
-        visit(batch(points.averted_points(), false, targets),
+    if (points.back_facing > 0)
+        visit(batch(points.back_facing_points(), false, targets),
               shadow::results{all.lit.subspan(points.facing), all.caster.subspan(points.facing)});
 }
 

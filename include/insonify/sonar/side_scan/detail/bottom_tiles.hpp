@@ -6,7 +6,7 @@
 #include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/executor.hpp>
 #include <insonify/seabed/any.hpp>
-#include <insonify/seabed/detail/rise.hpp>
+#include <insonify/seabed/detail/central_difference.hpp>
 #include <insonify/sonar/side_scan/side_scan.hpp>
 
 #include <memory>
@@ -29,17 +29,17 @@ class bottom_tiles {
   public:
     static constexpr int cells = 64;  ///< along a tile's side
 
-    /// @param spacing  metres between vertices, rounded by `even`
+    /// @param spacing  metres between vertices, rounded by `rounded_cell`
     bottom_tiles(const seabed::any& source, double spacing)
         : is_empty_(source.empty()),
           prepared_(source.prepare()),
           labels_(source.legend()),
           range_(prepared_.range()),
-          spacing_(even(spacing)),
+          spacing_(rounded_cell(spacing)),
           scale_(1 / spacing_) {}
 
     /// Rounds a length so that its multiples are exact: a vertex has the same coordinates in every row.
-    static double even(double length) {
+    static double rounded_cell(double length) {
         require(length > 1e-9 && length < 1e9, "cell", length, "above 10^-9 and below 10^9 metres");
         return numeric::rounded_to_eight_bits(length);
     }
@@ -225,7 +225,8 @@ class bottom_tiles {
         const auto scale = static_cast<float>(0.5 * scale_);
         const auto slope = [&](float before, float at, float after) {
             const float central = scale * (after - before);  // finite, unless beside a gap
-            return numeric::is_finite(central) ? central : scale * seabed::detail::rise(before, at, after);
+            return numeric::is_finite(central) ? central
+                                               : scale * seabed::detail::central_difference(before, at, after);
         };
         for (std::size_t tile = 0; tile < run.count; ++tile) {
             bottom_vertex* out = &vertices_[(run.slot + tile) * tile_size];

@@ -39,10 +39,10 @@ class echo_bins {
     /// Adds the echo of a target to the label of a bin.
     void add_instance(std::size_t bin, std::uint16_t instance, float power) { echoing_.add(bin, instance, power); }
     /// Adds a piece of seabed to the labels of a bin.
-    /// @param caster  of its shadow, or is_lit
+    /// @param caster  of its shadow, or no_shadow
     void add_seabed(std::size_t number, std::uint8_t type, std::uint16_t caster, float length) {
         echo_bin& bin = bins_[number];
-        if (caster == labels::is_lit)
+        if (caster == labels::no_shadow)
             bin.lit += length;
         else if (caster == labels::by_seabed)
             bin.dark_by_seabed += length;

@@ -39,11 +39,11 @@ class ping_tracer {
           window_(window),
           cell_(cell),
           range_(static_cast<double>(window.range)),
-          axis_{static_cast<double>(window.first_range), window.bin(), window.counts_time},
+          axis_{static_cast<double>(window.first_range), window.bin(), window.is_slant_range},
           step_((std::min)(axis_.bin, cell)),
           profile_(bottom, (std::max)(step_, 0.5 * cell), range_),
           bins_(static_cast<std::size_t>(window.bins)) {
-        for (const sliced_target& t : targets) top_ = (std::max)(top_, t.top());
+        for (const sliced_target& t : targets) highest_ = (std::max)(highest_, t.highest());
     }
 
     /// @returns one per bin, valid until the next call
@@ -51,19 +51,19 @@ class ping_tracer {
         bins_.clear();
         profile_.sample(p, start(window_, cell_, relief_, p, targets_));
         const double altitude = p.position().z;
-        double foot = 1e30;
+        double lowest_target = 1e30;
         for (const sliced_target& t : targets_)
-            if (meets(p, t)) foot = (std::min)(foot, t.foot());
+            if (meets(p, t)) lowest_target = (std::min)(lowest_target, t.lowest());
         double lowest = profile_.lowest(), highest = profile_.highest();
         if (skips_foreground(relief_, axis_.first, p)) lowest = relief_.lowest, highest = relief_.highest;
         if (!(lowest <= highest))  // no seabed here: rays for the targets alone
-            lowest = highest = (std::min)(foot, altitude - range_ / 16);
+            lowest = highest = (std::min)(lowest, altitude - range_ / 16);
         // Through a gap, targets lower than the seabed are received in the window from rays closer to nadir.
-        if (axis_.first > 0 && foot < lowest && profile_.has_gaps()) lowest = foot;
+        if (axis_.first > 0 && lowest_target < lowest && profile_.has_gaps()) lowest = lowest_target;
         // Depths along a pitched fan are longer. Vertical depths are lower bounds, as above_highest and above_all need.
         const double stretch = 1 / p.cosine_pitch();
-        const fan_shape shape =
-            fan_shape::around((altitude - lowest) * stretch, altitude - highest, altitude - (std::max)(top_, highest));
+        const fan_shape shape = fan_shape::around((altitude - lowest) * stretch, altitude - highest,
+                                                  altitude - (std::max)(highest_, highest));
         const std::array<double, 3> attitude{p.sine_roll(), p.cosine_roll(), p.cosine_pitch()};
         if (!(shape == fan_.shape()) || attitude != attitude_) build_fan(shape, attitude);
         if (!(altitude > lowest) || profile_[0].down <= 0) return bins_.all();  // the sonar is below the seabed
@@ -83,11 +83,11 @@ class ping_tracer {
         const double altitude = p.position().z, first = static_cast<double>(window.first_range);
         if (!skips_foreground(relief, first, p)) return 0;
         const double deepest = altitude - relief.lowest, begin = first - 4 * window.bin();
-        const double square = window.counts_time ? begin * begin - deepest * deepest : begin * begin;
+        const double square = window.is_slant_range ? begin * begin - deepest * deepest : begin * begin;
         const double nearest = begin > 0 && square > 0 ? numeric::square_root(square) - 4 * cell : 0;
         // Targets that are nearer than the window's seabed, or all of whose echo comes through a gap.
         for (const sliced_target& t : targets)
-            if (t.is_met_by(p, 1e9) && (t.nearest(p) < nearest || t.top() < relief.lowest)) return 0;
+            if (t.is_met_by(p, 1e9) && (t.nearest(p) < nearest || t.highest() < relief.lowest)) return 0;
         // The highest possible crest that occludes the lowest possible ground there.
         return (std::max)(0.0, nearest * (altitude - relief.highest) / deepest - 4 * cell);
     }
@@ -105,7 +105,7 @@ class ping_tracer {
     /// Builds the fan, and the power per metre of range of each ray.
     void build_fan(const fan_shape& shape, const std::array<double, 3>& attitude) {
         const auto slant = [&](double r) {
-            return axis_.counts_time ? r : numeric::square_root(r * r + shape.above_lowest * shape.above_lowest);
+            return axis_.is_slant_range ? r : numeric::square_root(r * r + shape.above_lowest * shape.above_lowest);
         };
         farthest_ = slant(range_);
         fan_ = ping_fan(shape, step_, slant(axis_.first), farthest_);
@@ -118,14 +118,14 @@ class ping_tracer {
             const double across = fan_[k].sine * cosine_roll + fan_[k].cosine * sine_roll,
                          down = fan_[k].cosine * cosine_roll - fan_[k].sine * sine_roll;
             const double factor = equation_.over_direction(across, down);
-            insonify::detail::require_not_negative("over_direction() of the sonar equation", factor);
+            insonify::detail::require_range("over_direction() of the sonar equation", factor, 0, 1e20, "0 to 10^20");
             ray_power_[k] = thickness * static_cast<float>(fan_[k].width * factor);
         }
     }
 
     /// Whether a target may echo within the range.
     bool meets(const ping_frame& p, const sliced_target& t) const {
-        return t.is_met_by(p, axis_.counts_time ? range_ : 1e30) && t.nearest(p) < range_;
+        return t.is_met_by(p, axis_.is_slant_range ? range_ : 1e30) && t.nearest(p) < range_;
     }
 
     void gather_targets(const ping_frame& p) {
@@ -155,7 +155,7 @@ class ping_tracer {
     /// (the horizon) is in shadow.
     void trace_bottom(const ping_frame& ping) {
         double horizon_x = 0, horizon_down = 1;
-        // Rays that meet the bottom in front of the profile go no further.
+        // Rays that meet the bottom in front of the profile's first vertex end there.
         std::size_t k = profile_.starts_at_nadir() ? 0 : fan_.first_over(profile_.x(0), profile_[0].down);
         if (has_targets_)
             for (std::size_t j = 0; j < k; ++j) hits_.cut_off(j, 0);
@@ -198,7 +198,7 @@ class ping_tracer {
             }
             if (Labelled && !is_gap)
                 label(part, from, 1,
-                      has_targets_ ? occluder(k > first ? k - 1 : k, part.at(last_met)) : labels::is_lit);
+                      has_targets_ ? occluder(k > first ? k - 1 : k, part.at(last_met)) : labels::no_shadow);
             horizon_x = qx, horizon_down = q.down;
         }
     }
@@ -258,18 +258,18 @@ class ping_tracer {
         });
     }
 
-    /// The target between the sonar and a point of ray k, or is_lit.
+    /// The target between the sonar and a point of ray k, or no_shadow.
     std::uint16_t occluder(std::size_t k, const glm::dvec2& p) const {
         return hits_.occluder(k, numeric::square_root(p.x * p.x + p.y * p.y));
     }
     /// The caster of a shadow below the horizon: a target, if one occludes the point, or the seabed.
     std::uint16_t caster_below_horizon(const glm::dvec2& p) const {
-        const std::uint16_t target = has_targets_ ? occluder(fan_.first_over(p.x, p.y), p) : labels::is_lit;
-        return target == labels::is_lit ? labels::by_seabed : target;
+        const std::uint16_t target = has_targets_ ? occluder(fan_.first_over(p.x, p.y), p) : labels::no_shadow;
+        return target == labels::no_shadow ? labels::by_seabed : target;
     }
 
     /// Adds a piece of bottom to the labels: between two fractions of the way along a facet, with the caster of its
-    /// shadow or is_lit. Each half of a facet has the type of its vertex.
+    /// shadow or no_shadow. Each half of a facet has the type of its vertex.
     void label(const facet& part, double from, double to, std::uint16_t caster) {
         if (part.p.type == part.q.type) return label(part, from, to, caster, part.p.type);
         if (from < 0.5) label(part, from, (std::min)(to, 0.5), caster, part.p.type);
@@ -304,7 +304,7 @@ class ping_tracer {
     range_axis axis_;
     double step_;
     bottom_profile profile_;
-    double top_ = -1e30;                       ///< of all targets
+    double highest_ = -1e30;                   ///< of all targets
     std::array<double, 3> attitude_{0, 1, 1};  ///< sine and cosine of the roll, cosine of the pitch
     ping_fan fan_;
     dynamic_array<float> ray_power_;

@@ -16,22 +16,22 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// Converts ranges to positions in bins.
 struct range_axis {
-    double first, bin;  ///< metres
-    bool counts_time;   ///< slant range, or else ground range
+    double first, bin;    ///< metres
+    bool is_slant_range;  ///< bins count slant range, or else ground range
 
     /// Position of an echo at a slant range along a ray.
     float position(const ping_fan::ray& ray, double range) const {
-        const double r = counts_time ? range : range * ray.sine;
+        const double r = is_slant_range ? range : range * ray.sine;
         return static_cast<float>((r - first) / bin);
     }
     /// Position of the echo of a point, from its distances across and below the sonar.
     double position(double x, double down) const {
-        const double r = counts_time ? numeric::square_root(x * x + down * down) : x;
+        const double r = is_slant_range ? numeric::square_root(x * x + down * down) : x;
         return (r - first) / bin;
     }
     /// Half the number of bins between the edges of a ray on a surface along (dx, ddown).
     float half_length(const ping_fan::ray& ray, double range, double dx, double ddown) const {
-        const double outwards = counts_time ? dx * ray.sine + ddown * ray.cosine : dx;
+        const double outwards = is_slant_range ? dx * ray.sine + ddown * ray.cosine : dx;
         const double turning = dx * ray.cosine - ddown * ray.sine;
         const double half = 0.5 * range * ray.width * outwards / (turning * bin);
         return static_cast<float>(numeric::abs(half));

@@ -18,7 +18,7 @@ struct range_bins {
     float first_range, range;
     int bins;
     side facing;
-    bool counts_time;  ///< slant range
+    bool is_slant_range;  ///< bins count slant range, or else ground range
 
     template <across_track Axis>
     INSONIFY_MEMBER explicit range_bins(const side_scan_rig<Axis>& rig)
@@ -28,7 +28,7 @@ struct range_bins {
           range(rig.range),
           bins(rig.bins),
           facing(rig.side),
-          counts_time(Axis == across_track::slant_range) {}
+          is_slant_range(Axis == across_track::slant_range) {}
 
     INSONIFY_MEMBER double bin() const {
         return (static_cast<double>(range) - static_cast<double>(first_range)) / bins;
@@ -51,7 +51,7 @@ namespace detail::inline INSONIFY_FLAGS {
 /// Reach of the horizontal beam at the largest range, in pings.
 inline int beam_reach(const equation_interface& equation, const range_bins& window) {
     const double range = static_cast<double>(window.range), altitude = static_cast<double>(window.altitude);
-    const double slant = window.counts_time ? range : numeric::square_root(range * range + altitude * altitude);
+    const double slant = window.is_slant_range ? range : numeric::square_root(range * range + altitude * altitude);
     const double pings = equation.beam_reach(slant) / static_cast<double>(window.ping_spacing);
     require(pings >= 0 && pings < 4096, "pings in the horizontal beam", pings, "0 or more, below 4096");
     return static_cast<int>(pings);

@@ -64,13 +64,13 @@ class recorder {
         // Both ends are rounded floats, so their difference may fall short of the intended length.
         const double recorded = static_cast<double>(window.range) - static_cast<double>(window.first_range);
         require_not_negative("range_length() of the sonar equation", equation_.pulse_length());
-        require_not_negative("noise() of the sonar equation", equation_.noise());
+        require_range("noise() of the sonar equation", equation_.noise(), 0, 1e20, "0 to 10^20");
         require(equation_.pulse_length() <= recorded + 0x1p-23 * static_cast<double>(window.range), "pulse.length",
                 equation_.pulse_length(), "at most range - first_range, in metres");
         out_.rows.side = window.facing;
         require(options.cell == 0 || options.cell >= 0x1p-20 * static_cast<double>(window.range), "cell", options.cell,
                 "0, or at least 2^-20 of the range");
-        out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(window));
+        out_.stats.cell = bottom_tiles::rounded_cell(options.cell > 0 ? options.cell : default_cell(window));
         targets_ = sliced_targets(s);
         const auto height = static_cast<int>(track.size());
         out_.image = filled(window.bins, height, 0.0f, ex);
@@ -109,7 +109,7 @@ class recorder {
     /// Slant range of a bin from an altitude.
     double slant_of(std::size_t bin, double altitude) const {
         const double r = range_of(bin);
-        return window_.counts_time ? r : numeric::square_root(r * r + altitude * altitude);
+        return window_.is_slant_range ? r : numeric::square_root(r * r + altitude * altitude);
     }
 
     void trace(executor_ref ex) {
@@ -143,7 +143,7 @@ class recorder {
     /// same at any altitude.
     std::span<const float> losses_at(const ping& p, bin_factors& losses) const {
         if (!equation_.has_ranges()) return {};
-        const double altitude = window_.counts_time ? 0 : p.position.z;
+        const double altitude = window_.is_slant_range ? 0 : p.position.z;
         return losses.at(altitude, window_.bins, "over_range() and footprint() of the sonar equation",
                          [&](std::size_t b) { return equation_.over_range(slant_of(b, altitude), spacing()); });
     }
@@ -164,7 +164,7 @@ class recorder {
                 const bool is_target = bin.target > bin.bottom;
                 const bool is_dark = bin.dark_by_target + bin.dark_by_seabed > bin.lit;
                 instance[b] = is_target ? bin.instance : labels::no_instance;
-                shadow[b] = is_target || !is_dark ? labels::is_lit : bin.caster;
+                shadow[b] = is_target || !is_dark ? labels::no_shadow : bin.caster;
                 seabed[b] = is_target ? labels::no_seabed : bin.seabed;
             }
         }
@@ -203,6 +203,8 @@ class recorder {
                 return factor;
             };
             for (int j = -reach; j <= reach; ++j) sum += weight(numeric::abs(j));
+            require(sum > 0 && numeric::is_finite(sum), "sum of pattern() of the sonar equation within reach()", sum,
+                    "above 0 and finite");
             for (int j = 0; j <= reach; ++j) weights(b, j) = static_cast<float>(weight(j) / sum);
         }
         image<float> blurred(bins, rows);
@@ -228,7 +230,7 @@ class recorder {
                 const double altitude = track_[i].position.z;
                 const auto gain = gains.at(altitude, window_.bins, "gain() of the sonar equation", [&](std::size_t b) {
                     return equation_.gain(
-                        {slant_of(b, altitude), altitude, window_.bin(), spacing(), window_.counts_time});
+                        {slant_of(b, altitude), altitude, window_.bin(), spacing(), window_.is_slant_range});
                 });
                 const auto row = out_.image.row(static_cast<int>(i));
                 for (std::size_t b = 0; b < row.size(); ++b)

@@ -108,9 +108,9 @@ class target_hits {
     }
 
     /// The target that most of ray k hits, if more than half of the ray hits targets and its nearest hit is in front of
-    /// `range`; else is_lit.
+    /// `range`; else no_shadow.
     std::uint16_t occluder(std::size_t k, double range) const {
-        return k < occluders_.size() && occluders_[k].range < range ? occluders_[k].instance : labels::is_lit;
+        return k < occluders_.size() && occluders_[k].range < range ? occluders_[k].instance : labels::no_shadow;
     }
 
     /// Calls `visit(ray, hit)` in the order of the rays.

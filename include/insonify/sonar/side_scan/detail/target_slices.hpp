@@ -36,13 +36,14 @@ class sliced_target {
         centre_ = transform_point(to_world_, box.centre());
         const glm::dvec3 half = 0.5 * box.size();
         radius_ = numeric::square_root(numeric::dot(half, half)) * static_cast<double>(t.placement.scale) * (1 + 1e-6);
-        const glm::dmat3& turn = to_world_.linear;
-        rise_ = numeric::abs(turn[0].z) * half.x + numeric::abs(turn[1].z) * half.y + numeric::abs(turn[2].z) * half.z;
+        const glm::dmat3& linear = to_world_.linear;
+        half_height_ = numeric::abs(linear[0].z) * half.x + numeric::abs(linear[1].z) * half.y +
+                       numeric::abs(linear[2].z) * half.z;
     }
 
     /// Bounds of its heights above the datum: those of its box.
-    double top() const { return centre_.z + rise_; }
-    double foot() const { return radius_ > 0 ? centre_.z - rise_ : 1e30; }
+    double highest() const { return centre_.z + half_height_; }
+    double lowest() const { return radius_ > 0 ? centre_.z - half_height_ : 1e30; }
 
     /// Whether a ping's plane may meet the target on the side that it faces, within a slant range in metres.
     bool is_met_by(const ping_frame& p, double range) const {
@@ -60,25 +61,25 @@ class sliced_target {
     template <class Visit>
     void cut(const ping_frame& p, const Visit& visit) const {
         const glm::dvec3 offset = p(to_world_.offset);
-        glm::dmat3 turn;
-        for (int i = 0; i < 3; ++i) turn[i] = p.turned(to_world_.linear[i]);
-        const glm::mat3 normals(turn);  // scales are uniform
-        const double sign = numeric::determinant(turn) < 0 ? -1 : 1;
-        const glm::dvec3 ahead(turn[0].y, turn[1].y, turn[2].y);
+        glm::dmat3 linear;
+        for (int i = 0; i < 3; ++i) linear[i] = p.direction(to_world_.linear[i]);
+        const glm::mat3 normals(linear);  // scales are uniform
+        const double sign = numeric::determinant(linear) < 0 ? -1 : 1;
+        const glm::dvec3 ahead(linear[0].y, linear[1].y, linear[2].y);
         tree_->cut(ahead, offset.y, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i)
-                cut_triangle(shape_->triangles[i], turn, offset, normals, sign, visit);
+                cut_triangle(shape_->triangles[i], linear, offset, normals, sign, visit);
         });
     }
 
   private:
     template <class Visit>
-    void cut_triangle(const glm::uvec3& t, const glm::dmat3& turn, const glm::dvec3& offset, const glm::mat3& normals,
+    void cut_triangle(const glm::uvec3& t, const glm::dmat3& linear, const glm::dvec3& offset, const glm::mat3& normals,
                       double sign, const Visit& visit) const {
         glm::dvec3 v[3];
         int behind = 0;
         for (int i = 0; i < 3; ++i) {
-            v[i] = numeric::product(turn, glm::dvec3(shape_->positions[t[i]])) + offset;
+            v[i] = numeric::product(linear, glm::dvec3(shape_->positions[t[i]])) + offset;
             behind += v[i].y < 0 ? 1 : 0;
         }
         if (behind == 0 || behind == 3 || !numeric::is_finite(v[0].x + v[1].x + v[2].x + v[0].z + v[1].z + v[2].z))
@@ -105,8 +106,8 @@ class sliced_target {
     std::shared_ptr<const plane_tree> tree_;
     affine to_world_;
     glm::dvec3 centre_{0, 0, -1e30};
-    double radius_ = 0;  ///< of its bounding sphere, metres
-    double rise_ = 0;    ///< from the centre to the top
+    double radius_ = 0;       ///< of its bounding sphere, metres
+    double half_height_ = 0;  ///< from the centre to the highest
 };
 
 /// The targets of a scene; those with the same mesh share its tree.

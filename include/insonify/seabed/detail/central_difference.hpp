@@ -12,7 +12,7 @@ namespace seabed::detail::inline INSONIFY_FLAGS {
 /// Twice the height difference per cell. At an edge or beside a missing vertex, the one-sided difference doubled; 0 at
 /// a vertex without data.
 /// @param both  whether the grid has vertices on both sides; at an edge, `at` is passed for the missing one
-inline float rise(float before, float at, float after, bool both = true) {
+inline float central_difference(float before, float at, float after, bool both = true) {
     if (!numeric::is_finite(at)) return 0;
     const bool has_before = numeric::is_finite(before), has_after = numeric::is_finite(after);
     if (has_before && has_after) return both ? after - before : 2 * (after - before);

@@ -15,24 +15,24 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 using insonify::detail::dynamic_array;
 
 /// The casters that touch each tile of a plane.
-class tile_occupants {
+class tile_casters {
   public:
     static constexpr std::uint32_t none = invalid_id, several = invalid_id - 1;
-    struct occupancy {
+    struct covered_tile {
         std::uint32_t tile, caster;
     };
 
-    tile_occupants() = default;
+    tile_casters() = default;
     /// @param all  in order of casters
-    tile_occupants(std::size_t tiles, std::span<const occupancy> all)
+    tile_casters(std::size_t tiles, std::span<const covered_tile> all)
         : only_(tiles, none), starts_(tiles + 1, 0), casters_(all.size()) {
-        for (const occupancy& o : all) {
+        for (const covered_tile& o : all) {
             ++starts_[o.tile + 1];
             only_[o.tile] = only_[o.tile] == none ? o.caster : several;
         }
         for (std::size_t tile = 0; tile < tiles; ++tile) starts_[tile + 1] += starts_[tile];
         dynamic_array<std::size_t> next = starts_;
-        for (const occupancy& o : all) casters_[next[o.tile]++] = o.caster;
+        for (const covered_tile& o : all) casters_[next[o.tile]++] = o.caster;
     }
 
     /// In order.
