@@ -136,6 +136,7 @@ auto where(image<std::uint8_t>&& mask, Filter&& filter) {
     const auto kept = std::make_shared<const image<std::uint8_t>>(std::move(mask));
     return detail::masked(kept->view(), kept, std::forward<Filter>(filter));
 }
+/// The same with a constant temporary, which is copied.
 template <class Filter>
 auto where(const image<std::uint8_t>&& mask, Filter&& filter) {
     return where(image<std::uint8_t>(mask), std::forward<Filter>(filter));
