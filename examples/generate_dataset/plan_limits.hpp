@@ -64,7 +64,7 @@ constexpr limits limits_of(std::string_view column) {
         {"scour", {0, 1}},
         {"cover", {0, 1}},
         {"relief", {0, 1}},
-        {"patch_coverage", {0.01, 0.99}},
+        {"patch_share", {0.01, 0.99}},
         {"black_share", {0, 0.49}},
         {"white_share", {0, 0.49}},
         {"share", {0, 1}},

@@ -333,7 +333,7 @@ class Plans(unittest.TestCase):
 
     def test_a_value_outside_its_limits_is_refused_before_anything_is_written(self):
         for column, value in (("looks", 65), ("looks_drawn", 0), ("texture", -1), ("tone_drift_db", 31), ("tone_drift_db", -1),
-                              ("tone_streaks_db", 31), ("tone_patches_db", -31), ("patch_coverage", 0), ("gain_error_db", 61),
+                              ("tone_streaks_db", 31), ("tone_patches_db", -31), ("patch_share", 0), ("gain_error_db", 61),
                               ("gain_error_px", 0.5), ("gain_slope_db", -61), ("banding_drift_db", -1), ("banding_px", 0),
                               ("banding_jitter_db", 61), ("noise_floor", -1), ("volume", -1), ("correlation_across_px", 17),
                               ("correlation_along_px", 17), ("depth_over_altitude", 0), ("display_range_factor", 0),

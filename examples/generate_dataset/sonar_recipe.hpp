@@ -217,7 +217,7 @@ inline void sample_bottom(sampler& s, sonar_plan& p, double pixel, const view_of
     p.tone.direction = static_cast<float>(s.uniform("streak_direction_rad", 0, in::numeric::pi));
     p.tone.patches = static_cast<float>(s.uniform_or_0("tone_patches_db", 0.78, -4, 4));
     p.tone.patch_size = static_cast<float>(s.derived("patch_size_m", pixel * s.logarithmic("patch_px", 15, 70)));
-    p.tone.patch_coverage = static_cast<float>(s.uniform("patch_coverage", 0.1, 0.6));
+    p.tone.patch_coverage = static_cast<float>(s.uniform("patch_share", 0.1, 0.6));
     p.tone.seed = s.word("tone_seed");
 
     p.clutter = s.whole("clutter", 1, 9);

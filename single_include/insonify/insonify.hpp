@@ -315,8 +315,8 @@ class block_pool {
         kept_ += size;
     }
 
-    /// Frees the kept blocks and resets the peak, so that blocks in use are freed, not kept, unless more are allocated
-    /// before.
+    /// Frees the kept blocks and resets the peak: a block in use is then freed, not kept, when it is returned, unless
+    /// more memory comes into use first.
     INSONIFY_TAGGED void release() noexcept {
         const guard lock(busy_);
         while (count_ > 0) free_oldest();
@@ -6959,8 +6959,8 @@ struct cell_cut {
 inline namespace INSONIFY_ONCE {
 
 /// The regular grid of a mesh's vertices; none if they are not on one, or a height is not finite.
-/// @param off  distance from the lattice up to which vertices are accepted, in steps; `regular_grid::off` of the result
-///             bounds the actual distance
+/// @param tolerance  distance from the lattice up to which vertices are accepted, in steps; the `lattice_error` of the
+///                   result bounds the actual distance
 INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m, double tolerance = 1.0 / 256);
 
 #if INSONIFY_BODIES
@@ -7038,11 +7038,11 @@ struct topology {
     std::size_t triangles = 0;           ///< without the degenerate ones
     std::size_t degenerate = 0;          ///< triangles with two coincident corners, not counted elsewhere
     std::size_t boundary_edges = 0;      ///< edges with one triangle
-    std::size_t non_manifold_edges = 0;  ///< edges with more than two triangles, or two that traverse it the same way
-    std::size_t inward_components = 0;   ///< pieces, connected by vertices, that face inwards or enclose nothing
+    std::size_t inconsistent_edges = 0;  ///< with more than two triangles, or two that traverse them the same way
+    std::size_t inward_components = 0;   ///< connected components that face inwards or enclose nothing
 
     /// Every edge joins two triangles of the same orientation.
-    bool closed() const { return triangles > 0 && boundary_edges == 0 && non_manifold_edges == 0; }
+    bool closed() const { return triangles > 0 && boundary_edges == 0 && inconsistent_edges == 0; }
     /// Closed, with all triangles facing outwards.
     bool solid() const { return closed() && inward_components == 0; }
     /// V - E + F: 2 for a closed surface of one piece without handles.
@@ -7127,7 +7127,7 @@ inline topology inspect(const mesh& m) {
         if (end - i == 1)
             ++out.boundary_edges;
         else if (end - i > 2 || sides[i + 1].number == sides[i].number)
-            ++out.non_manifold_edges;
+            ++out.inconsistent_edges;
     }
     return out;
 }
@@ -7437,7 +7437,7 @@ float longest_semi_axis(const Round& shape) {
 }
 
 #if INSONIFY_BODIES
-/// Turns an profile about z and stretches the result with its normals.
+/// Turns a profile about z and stretches the result with its normals.
 inline mesh stretched_round(const dynamic_array<profile_point>& profile, const char* name, const glm::vec3& aspect,
                             int segments) {
     mesh out = revolve(profile, segments);
@@ -8322,8 +8322,8 @@ struct scanline {
     double origin = 0;       ///< x of sample 0 of the whole row
     double spacing = 1;      ///< >= 0
     std::int64_t first = 0;  ///< index in the whole row of sample 0 here; may be negative
-    /// Metres between the vertices of the grid that the row belongs to: relief that the grid can't carry fades out (see
-    /// `band_limit_gain`). 0: no relief fades.
+    /// Metres between the vertices of the grid that the row belongs to: relief that the grid can't resolve fades out
+    /// (see `band_limit_gain`). 0: no relief fades.
     double grid_spacing = 0;
 
     INSONIFY_MEMBER double x(std::size_t i) const { return origin + spacing * static_cast<double>(number(i)); }
@@ -8335,8 +8335,8 @@ struct scanline {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Fraction in [0, 1] of a wave's amplitude that a grid carries: 0 up to two samples per wave, which would alias, and 1
-/// from four on. Both in the same unit; a spacing of 0 carries all.
+/// Gain, 0 to 1, on the amplitude of a wave that a grid samples: 0 up to two samples per wave, which would alias, and 1
+/// from four on. Both in the same unit; at a spacing of 0 it is 1.
 ///
 /// Alan Norton, Alyn P. Rockwood, Philip T. Skolmoski. Clamping: A Method of Antialiasing Textured Surfaces by
 /// Bandwidth Limiting in Object Space. SIGGRAPH, 1982.
@@ -9929,9 +9929,9 @@ class trawl_furrows {
         }
     }
 
-    /// @param bits    random bits of the strip
-    /// @param distance     half widths from the furrow's middle
-    /// @param along   metres
+    /// @param bits      random bits of the strip
+    /// @param distance  half widths from the furrow's middle
+    /// @param along     metres
     float depth_at(const family& f, std::size_t n, std::uint32_t bits, float distance, double along) const {
         // A strip is divided into lengths with or without a furrow, faded where they meet.
         const lattice_coordinate u(along * f.per_length + static_cast<double>(bits) * 0x1p-32);
@@ -10562,7 +10562,7 @@ struct directional_light {
     double elevation = numeric::to_radians(6);  ///< radians above the horizon, lowest_elevation to pi / 2
 };
 
-/// Light from a point nearby.
+/// Light from a point.
 struct point_light {
     glm::dvec3 position{0, 0, 1};  ///< metres
 };
@@ -11612,8 +11612,8 @@ struct overhead {
     glm::ivec2 size{2048, 2048};                           ///< pixels: width (across track), height (along track)
     float grazing = static_cast<float>(numeric::pi / 30);  ///< of the light on level ground, radians
     float light_azimuth = 0;  ///< direction of travel of the light, from image right towards image up, radians
-    /// Distance of the light from the datum below the camera, where grazing and azimuth apply, metres. Rays of an
-    /// infinitely distant light are parallel. Point lights need `shadow::exact` or `penumbra`, and have no falloff.
+    /// Distance of the light from the datum below the camera, where grazing and azimuth apply, metres. If infinite, its
+    /// rays are parallel; if finite, it is a point light, which needs `shadow::exact` or `penumbra` and has no falloff.
     float light_distance = std::numeric_limits<float>::infinity();
     float intensity = 4;  ///< of the light on a surface that faces it
     float sky = 0.05f;    ///< light from the upper hemisphere, without shadows
@@ -11810,12 +11810,12 @@ class overhead_renderer;
 template <class Shadow, class Labels, class Law, depth_precision Depth>
 auto renderer_of(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
                  executor_ref ex) {
-    using painter = overhead_renderer<Shadow, Labels, Law, Depth>;
+    using renderer = overhead_renderer<Shadow, Labels, Law, Depth>;
     static_assert(
-        requires { sizeof(painter); },
+        requires { sizeof(renderer); },
         "a shadow policy, law or depth other than the built-in ones needs #include "
         "<insonify/sonar/overhead/render.hpp> in the compiled form");
-    return painter(s, rig, options, ex);
+    return renderer(s, rig, options, ex);
 }
 
 template <class Shadow, class Labels, class Law, depth_precision Depth>
@@ -11957,9 +11957,9 @@ INSONIFY_ARITHMETIC_END
 // Sorts triangles into tiles, in submission order.
 //
 // Triangles are binned in chunks, in parallel. Triangles adjacent in a mesh are mostly adjacent on the screen, so a
-// chunk stores runs: consecutive triangles that touch the same tiles. A prefix sum over the run
-// counts of every tile and chunk gives each run its position, and a second parallel pass copies them there: an
-// order-preserving counting sort, whose result does not depend on which thread ran which chunk.
+// chunk stores runs: consecutive triangles that touch the same tiles. A prefix sum over the run counts of every tile
+// and chunk gives each run its position, and a second parallel pass copies them there: an order-preserving counting
+// sort, whose result does not depend on which thread ran which chunk.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -12393,7 +12393,7 @@ inline int128 wide_side(std::int64_t edge_x, std::int64_t edge_y, std::int64_t r
     return int128::product(edge_x, down) - int128::product(edge_y, right);
 }
 
-/// Twice the signed area in squared fixed-point units; positive for triangles that edge_x clockwise on the screen.
+/// Twice the signed area in squared fixed-point units; positive for triangles that run clockwise on the screen.
 inline std::int64_t compact_area(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c) {
     return compact_side(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
 }
@@ -12446,10 +12446,10 @@ struct edge_function {
     edge_function simplified(int width, int height) const {
         const std::int64_t across = dx * (width - 1), along = dy * (height - 1);
         constexpr std::int64_t none = 0;
-        const std::int64_t lowest = (std::min)(across, none) + (std::min)(along, none);
-        const std::int64_t highest = (std::max)(across, none) + (std::max)(along, none);
-        if (origin >= -lowest) return {0, 0, 0};
-        if (origin < -highest) return {-1, 0, 0};
+        const std::int64_t smallest_change = (std::min)(across, none) + (std::min)(along, none);
+        const std::int64_t largest_change = (std::max)(across, none) + (std::max)(along, none);
+        if (origin >= -smallest_change) return {0, 0, 0};
+        if (origin < -largest_change) return {-1, 0, 0};
         return *this;
     }
 };
@@ -12504,7 +12504,7 @@ inline float rounded_depth(const screen_vertex& a, const screen_vertex& b, const
     return (sum / wide(weights[0] + weights[1] + weights[2])).to_float();
 }
 
-/// A triangle of any size, ready for the pixels of a rectangle. The vertices edge_x clockwise on the screen; edges are
+/// A triangle of any size, ready for the pixels of a rectangle. The vertices run clockwise on the screen; edges are
 /// named by their ends.
 struct triangle_setup {
     edge_function bc, ca, ab;
@@ -12615,7 +12615,7 @@ class projection {
         }
     }
 
-    /// Depth is negated where the larger one is kept: in a tile, smaller is always nearer.
+    /// Depth is negated under `depth_compare::greater`: in a tile, smaller is always nearer.
     screen_vertex to_screen(const glm::dvec4& p) const {
         const double inverse_w = 1 / p.w;
         const glm::dvec3 over_w = exact_ ? glm::dvec3(p.x / p.w, p.y / p.w, p.z / p.w)
@@ -12919,7 +12919,7 @@ struct drawn_area {
     using ints = lanes<std::int32_t, N>;
     rect_lanes<N> pixels;
     ints half;    ///< half a pixel in sub-pixels
-    ints before;  ///< one sub-pixel less
+    ints before;  ///< half - 1
     int bits;     ///< of sub-pixels
 
     INSONIFY_INLINE drawn_area(const pixel_grid& grid, const rect& r)
@@ -15211,7 +15211,7 @@ class horizon_bounds {
                    isa level, E& ex)
         : grid_(lattice, travel),
           u_(m, box, grid_, ex),
-          lattice_error_(2 * lattice.lattice_error + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
+          lattice_margin_(2 * lattice.lattice_error + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
         const double relief = grid_.u_per_metre * (u_.highest_z - u_.lowest_z);
         const double size =
             grid_.columns + grid_.u_per_metre * (std::max)(numeric::abs(u_.highest_z), numeric::abs(u_.lowest_z));
@@ -15242,11 +15242,11 @@ class horizon_bounds {
         const reals x = grid_.x_of.x * dx + grid_.x_of.y * dy;
         const reals strip = grid_.y_of.x * dx + grid_.y_of.y * dy - grid_.slope * x - static_cast<double>(first_strip_);
         const bits exists = bits(x >= 0.0) & bits(x <= static_cast<double>(grid_.columns - 1)) &
-                            bits(strip >= lattice_error_) & bits(strip < strips_ - lattice_error_);
+                            bits(strip >= lattice_margin_) & bits(strip < strips_ - lattice_margin_);
         const reals u = x + grid_.u_per_metre * p[2];
         // A point close to a line of the lattice may lie in a cell beyond it.
-        const reals column = exists ? x : reals{}, ahead = exists ? x + lattice_error_ : reals{};
-        const reals low = exists ? strip - lattice_error_ : reals{}, high = exists ? strip + lattice_error_ : reals{};
+        const reals column = exists ? x : reals{}, ahead = exists ? x + lattice_margin_ : reals{};
+        const reals low = exists ? strip - lattice_margin_ : reals{}, high = exists ? strip + lattice_margin_ : reals{};
         const auto bound_at = [&](const reals& at, int k) {
             return bound(static_cast<int>(lane(at, k)), static_cast<int>(lane(low, k)),
                          static_cast<int>(lane(high, k)));
@@ -15271,7 +15271,7 @@ class horizon_bounds {
     /// Error bound of u, in columns.
     double margin() const { return margin_; }
     /// Bound of the distance of vertices from their lattice points, along the light or across, in steps, with a margin.
-    double lattice_error() const { return lattice_error_; }
+    double lattice_margin() const { return lattice_margin_; }
     bool has_strip(int strip) const { return strip >= 0 && strip < strips_; }
     /// Strip number `strip` of a column holds the points with floor(Y - slope X) = strip + first_strip().
     int first_strip() const { return first_strip_; }
@@ -15289,7 +15289,7 @@ class horizon_bounds {
   private:
     lit_grid grid_;
     grid_u u_;
-    double lattice_error_, margin_ = 0;
+    double lattice_margin_, margin_ = 0;
     int first_strip_ = 0, strips_ = 0;
     insonify::detail::uninitialized_array<float> bounds_;
 };
@@ -15357,7 +15357,7 @@ class light_plane {
 };
 
 /// Whether anything within a box may lie over a plane of a point light.
-inline bool is_visible_on(const light_plane& plane, const bounding_box& box) {
+inline bool may_project_onto(const light_plane& plane, const bounding_box& box) {
     bool outside[4] = {true, true, true, true};
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 p = plane(box.corner(i));
@@ -15367,7 +15367,7 @@ inline bool is_visible_on(const light_plane& plane, const bounding_box& box) {
 }
 
 /// The part of a point light's plane that a box is over.
-inline std::pair<glm::dvec2, glm::dvec2> visible_extent(const light_plane& plane, const bounding_box& box) {
+inline std::pair<glm::dvec2, glm::dvec2> projected_extent(const light_plane& plane, const bounding_box& box) {
     glm::dvec2 lower(1), upper(-1);
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 p = plane(box.corner(i));
@@ -15401,12 +15401,14 @@ inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
 /// Maps points of a light's plane to where their rays meet the plane z = 0 of a mesh, in grid steps.
-class datum_intercepts {
+class mesh_plane_intercepts {
   public:
-    datum_intercepts(const light_plane& plane, const affine& placement, const lit_grid& grid) {
-        const auto seen = [&](double x, double y) { return glm::dvec2(plane(transform_point(placement, {x, y, 0}))); };
-        origin_ = seen(0, 0);
-        const glm::dvec2 x = seen(1, 0) - origin_, y = seen(0, 1) - origin_;
+    mesh_plane_intercepts(const light_plane& plane, const affine& placement, const lit_grid& grid) {
+        const auto projected = [&](double x, double y) {
+            return glm::dvec2(plane(transform_point(placement, {x, y, 0})));
+        };
+        origin_ = projected(0, 0);
+        const glm::dvec2 x = projected(1, 0) - origin_, y = projected(0, 1) - origin_;
         const double area = x.x * y.y - x.y * y.x;
         x_of_ = glm::dvec2(y.y, -y.x) / area;
         y_of_ = glm::dvec2(-x.y, x.x) / area;
@@ -15609,8 +15611,8 @@ class horizon_triangles {
             const floats u_slope = along_x + slope * along_y;
             const ints is_above = ints(base + along_x * dx + along_y * dy < eye);
             const ints is_facing = ints(u_slope > min_facing_slope),
-                       is_back_facing = ints(u_slope < 0.0f - min_facing_slope);
-            const ints is_dark = (is_above & is_back_facing) | ((is_above | is_facing) & ints(largest < dark_below));
+                       is_facing_away = ints(u_slope < 0.0f - min_facing_slope);
+            const ints is_dark = (is_above & is_facing_away) | ((is_above | is_facing) & ints(largest < dark_below));
             const ints is_lit = is_above & is_facing & ints(smallest > lit_above);
             result = is_lit ? ints{} + static_cast<std::int32_t>(decision::lit)
                             : ints{} + static_cast<std::int32_t>(decision::undecided);
@@ -15727,7 +15729,7 @@ class horizon_walk {
           x_(grid_.steps(glm::dvec2(p)).x),
           w_(grid_.steps(glm::dvec2(p)).y - grid_.slope * x_),
           u_(x_ + grid_.u_per_metre * p.z),
-          lattice_error_(horizon.lattice_error()) {}
+          lattice_margin_(horizon.lattice_margin()) {}
 
     /// Whether the surface blocks the ray of a point on it, where it faces the light.
     /// @param decide  decide(triangle): test of a triangle in doubles; false for the triangle of the point
@@ -15758,11 +15760,11 @@ class horizon_walk {
     /// Whether the point is above the surface by more than the error of u.
     bool lies_above() const {
         const double y = row_at(x_);
-        if (!(x_ >= lattice_error_ && x_ <= grid_.columns - 1 - lattice_error_ && y >= lattice_error_ &&
-              y <= grid_.rows - 1 - lattice_error_))
+        if (!(x_ >= lattice_margin_ && x_ <= grid_.columns - 1 - lattice_margin_ && y >= lattice_margin_ &&
+              y <= grid_.rows - 1 - lattice_margin_))
             return false;
-        for (const double x : {x_ - lattice_error_, x_ + lattice_error_})
-            for (int row = clamped_row(y - lattice_error_); row <= clamped_row(y + lattice_error_); ++row)
+        for (const double x : {x_ - lattice_margin_, x_ + lattice_margin_})
+            for (int row = clamped_row(y - lattice_margin_); row <= clamped_row(y + lattice_margin_); ++row)
                 if (!(largest_u((std::min)(static_cast<int>(x), grid_.columns - 2), row, row) < u_ - horizon_.margin()))
                     return false;
         return true;
@@ -15781,12 +15783,12 @@ class horizon_walk {
     bool walk(bool is_above, const Decide& decide) const {
         const double u_lower_bound = u_ - horizon_.margin();
         const double highest_z = horizon_.u().highest_z;
-        if (!(x_ + lattice_error_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
-        int column = static_cast<int>((std::min)(x_ + lattice_error_, static_cast<double>(grid_.columns - 2)));
+        if (!(x_ + lattice_margin_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
+        int column = static_cast<int>((std::min)(x_ + lattice_margin_, static_cast<double>(grid_.columns - 2)));
         for (bool is_first = true; column >= 0; --column, is_first = false) {
             // Rows of cells that the ray crosses in this column.
             const double low = row_at(column), high = low + grid_.slope;
-            if (high < -lattice_error_ || column + 1 + grid_.u_per_metre * highest_z < u_lower_bound) return false;
+            if (high < -lattice_margin_ || column + 1 + grid_.u_per_metre * highest_z < u_lower_bound) return false;
             if (!is_first && is_above) {
                 const decision rest = decide_before(column);
                 if (rest != decision::undecided) return rest == decision::dark;
@@ -15794,18 +15796,18 @@ class horizon_walk {
             if (!is_first && column % macrocell_u::side == macrocell_u::side - 1) {
                 const int before = column - (macrocell_u::side - 1);
                 const float largest_before =
-                    macrocells_.largest_u(before / macrocell_u::side, clamped_row(row_at(before) - lattice_error_),
-                                          clamped_row(high + lattice_error_));
+                    macrocells_.largest_u(before / macrocell_u::side, clamped_row(row_at(before) - lattice_margin_),
+                                          clamped_row(high + lattice_margin_));
                 if (static_cast<double>(largest_before) < u_lower_bound) {
                     column = before;
                     continue;
                 }
             }
-            if (low > grid_.rows - 1 + lattice_error_) continue;
-            const int first_row = clamped_row(low - lattice_error_), last_row = clamped_row(high + lattice_error_);
+            if (low > grid_.rows - 1 + lattice_margin_) continue;
+            const int first_row = clamped_row(low - lattice_margin_), last_row = clamped_row(high + lattice_margin_);
             if (largest_u(column, first_row, last_row) < u_lower_bound) continue;
             const double limit = is_above ? x_ - column : 2;
-            if (low >= lattice_error_ && high <= grid_.rows - 1 - lattice_error_) {
+            if (low >= lattice_margin_ && high <= grid_.rows - 1 - lattice_margin_) {
                 const crossing crossed = cross(column, limit);
                 if (crossed.largest < u_lower_bound) continue;
                 if (is_above && crossed.certain > u_ + horizon_.margin()) return true;
@@ -15825,8 +15827,8 @@ class horizon_walk {
 
     /// Decides by the bounds of a column, once the ray has been followed down to it.
     decision decide_before(int column) const {
-        const int strip = static_cast<int>(w_ - lattice_error_ - horizon_.first_strip()),
-                  next = static_cast<int>(w_ + lattice_error_ - horizon_.first_strip());
+        const int strip = static_cast<int>(w_ - lattice_margin_ - horizon_.first_strip()),
+                  next = static_cast<int>(w_ + lattice_margin_ - horizon_.first_strip());
         if (!horizon_.has_strip(strip) || !horizon_.has_strip(next)) return decision::undecided;
         const horizon_bound b = horizon_.bound(column, strip, next);
         if (u_ < static_cast<double>(b.dark_below) - horizon_.margin()) return decision::dark;
@@ -15845,11 +15847,11 @@ class horizon_walk {
         crossing found;
         // An edge is crossed at fraction s of the column and at fraction t of the edge.
         const auto add = [&](double s, double first, double last, double t) {
-            if (s > limit + lattice_error_) return;
+            if (s > limit + lattice_margin_) return;
             const double u = first + t * (last - first);
             found.smallest = (std::min)(found.smallest, u);
             found.largest = (std::max)(found.largest, u);
-            if (s <= limit - lattice_error_) found.certain = (std::max)(found.certain, u);
+            if (s <= limit - lattice_margin_) found.certain = (std::max)(found.certain, u);
         };
         const double start = low - row, end = start + slope, up = (1 - start) / slope;
         const bool stays = end <= 1;
@@ -15874,7 +15876,7 @@ class horizon_walk {
     const macrocell_u& macrocells_;
     const lit_grid& grid_;
     double x_, w_, u_;
-    double lattice_error_;
+    double lattice_margin_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
@@ -15905,14 +15907,14 @@ class grid_caster {
 
     /// Decides points [first, last), which lie on this caster and face the light, where the horizon's bounds suffice.
     /// @param into  results, from that of point `first` on
-    void decide_self(const points& at, std::size_t first, std::size_t last, decision* into, isa level) const {
+    void decide_own_points(const points& at, std::size_t first, std::size_t last, decision* into, isa level) const {
         insonify::detail::dispatch(kernel{*this, at, first, last, into}, level);
     }
     /// Whether it blocks the light of one of its own points that faces the light.
     /// @param p       in the frame of the light
     /// @param decide  decide(triangle): whether the triangle blocks p's light, in doubles; false for p's own triangle
     template <class Decide>
-    bool blocks_self(const glm::dvec3& p, const Decide& decide) const {
+    bool blocks_own_point(const glm::dvec3& p, const Decide& decide) const {
         const glm::dvec3 at = transform_point(to_mesh_, p);
         const decision result = bounds_.at(at);
         if (result != decision::undecided) return result == decision::dark;
@@ -16412,7 +16414,7 @@ class receiver_cells {
         place.resize(room);
         for (auto* array : {&mesh, &triangle, &lit_mesh, &limit_}) array->resize(room);
         is_limited_ = false;
-        lit_ = back_facing_ = {};
+        lit_ = facing_away_ = {};
         next_.clear();
         next_.append(starts_);
         for (std::size_t i = 0; i < count; ++i) {
@@ -16428,7 +16430,7 @@ class receiver_cells {
             limit_[at] = batch.casters;
             is_limited_ = is_limited_ || batch.casters != invalid_id;
             lit_mesh[at] = batch.face_light ? r.mesh : invalid_id;
-            (batch.face_light ? lit_ : back_facing_).include(r.mesh);
+            (batch.face_light ? lit_ : facing_away_).include(r.mesh);
         }
         for (std::size_t i = count; i < room; ++i) u[i] = v[i] = height[i] = 0;
         caster.assign(room, unblocked);
@@ -16445,9 +16447,9 @@ class receiver_cells {
     /// No coordinate u or v is larger.
     float largest() const { return largest_; }
     /// Whether all lie where a caster faces the light.
-    bool are_on_lit_side(std::uint32_t number) const { return back_facing_.empty() && lit_.is_only(number); }
+    bool are_on_lit_side(std::uint32_t number) const { return facing_away_.empty() && lit_.is_only(number); }
     /// Whether some may lie where a caster faces away from the light.
-    bool may_be_on_back_side(std::uint32_t number) const { return back_facing_.contains(number); }
+    bool may_be_on_back_side(std::uint32_t number) const { return facing_away_.contains(number); }
     /// Excludes unblocked receivers from tests against this caster and later ones, by their limit (points::casters).
     void exclude_from(std::uint32_t casters) {
         if (!is_limited_) return;
@@ -16481,7 +16483,7 @@ class receiver_cells {
     glm::vec2 lower_{0}, scale_{1}, cell_{1};
     float lowest_ = 0, highest_ = 0, largest_ = 0;
     bool is_limited_ = false;
-    mesh_range lit_, back_facing_;  ///< meshes of points that face the light, and of those that face away
+    mesh_range lit_, facing_away_;  ///< meshes of points that face the light, and of those that face away
     dynamic_array<std::uint32_t> starts_, next_, limit_;
     dynamic_array<std::uint16_t> keys_;
 };
@@ -16583,8 +16585,8 @@ struct occlusion_kernel {
                                   ? !receivers.may_be_on_back_side(number)
                                   : may_skip == skip::facing_self && receivers.are_on_lit_side(number);
         if (all_skip) missed |= facing;
-        const unsigned unblocked = ~movemask<N>(missed) & ((2u << (count - 1)) - 1);
-        if (unblocked == 0) return;
+        const unsigned candidates = ~movemask<N>(missed) & ((2u << (count - 1)) - 1);
+        if (candidates == 0) return;
         const unsigned some_skip = may_skip != skip::nothing ? movemask<N>(facing) : 0;
         // Counter-clockwise on the plane.
         const ints is_clockwise = ints(area < 0.0f);
@@ -16621,7 +16623,7 @@ struct occlusion_kernel {
             store(cells[axis], first[axis]);
             store(cells[2 + axis], last[axis]);
         });
-        for (unsigned left = unblocked; left != 0; left &= left - 1) {
+        for (unsigned left = candidates; left != 0; left &= left - 1) {
             const auto k = static_cast<std::size_t>(std::countr_zero(left));
             const float one[12] = {values[0][k], values[1][k], values[2][k],  values[3][k],
                                    values[4][k], values[5][k], values[6][k],  values[7][k],
@@ -16663,9 +16665,9 @@ struct occlusion_kernel {
             const floats error_bound = t[10] + t[11] * (height < 0.0f ? 0.0f - height : height);
             const ints out =
                 ints(to_b < -t[9]) | ints(to_c < -t[9]) | ints(to_a < -3 * t[9]) | ints(above > error_bound);
-            const ints unblocked = ints(out == 0) & ints(blocked == receiver_cells::unblocked) &
-                                   ints(column < static_cast<std::int32_t>(last - i));
-            if (!any(unblocked)) continue;
+            const ints candidates = ints(out == 0) & ints(blocked == receiver_cells::unblocked) &
+                                    ints(column < static_cast<std::int32_t>(last - i));
+            if (!any(candidates)) continue;
             load(mesh, receivers.mesh.data() + i);
             load(triangle, receivers.triangle.data() + i);
             const ints is_own = ints(mesh == static_cast<std::int32_t>(number));
@@ -16675,7 +16677,7 @@ struct occlusion_kernel {
                 skipped |= ints(lit_mesh == static_cast<std::int32_t>(number));
                 if (skips == skip::facing) skipped |= ~is_own;
             }
-            const ints tested = unblocked & ~skipped;
+            const ints tested = candidates & ~skipped;
             const ints certain = tested & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) &
                                  ints(above < 0.0f - error_bound);
             store(casters + i, ints(certain ? ints{} + static_cast<std::int32_t>(number) : blocked));
@@ -16797,7 +16799,7 @@ struct tiled_plane {
 class tiled_planes {
   public:
     explicit tiled_planes(const any_light& light) {
-        if (const auto* point = std::get_if<point_light>(&light)) point_light_ = *point;
+        if (const auto* source = std::get_if<point_light>(&light)) point_light_ = *source;
     }
     void add(tiled_plane plane) {
         starts_.push_back(tile_count() + (plane.casters.empty() ? 0 : plane.tiles.count()));
@@ -16998,7 +17000,7 @@ class exact_occlusion {
         if (planes_.empty()) return std::fill(into.lit.begin(), into.lit.end(), 1.0f);
         if (planes_.has_point_light()) return std::fill(into.lit.begin(), into.lit.end(), unknown);
         for (std::size_t first = 0, last = 0; first < at.size(); first = last) {
-            const std::size_t end = (std::min)(first + pretested_together, at.size());
+            const std::size_t end = (std::min)(first + screened_together, at.size());
             for (last = first + 1; last < end && at.mesh[last] == at.mesh[first];) ++last;
             screen(at, first, last, into);
         }
@@ -17018,7 +17020,7 @@ class exact_occlusion {
         // Triangles that other casters may shade are left to the test of points.
         detail::dynamic_array<std::pair<glm::dvec2, glm::dvec2>> shared;
         const detail::tiled_plane& plane = planes_.front();
-        const detail::datum_intercepts intercepts(plane.plane, c.placement, grid);
+        const detail::mesh_plane_intercepts intercepts(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
             if (plane.casters_of_tiles.only(tile) == caster || plane.casters_of_tiles.of(tile).empty()) continue;
             shared.push_back(intercepts.of(plane.tiles.lower + plane.tiles.corner(tile), plane.tiles.tile()));
@@ -17074,14 +17076,14 @@ class exact_occlusion {
         return c.grid != nullptr && c.may_skip == skip::facing_self &&
                transform_direction(inverse(c.placement), frame.to_light()).z > 0;
     }
-    static constexpr std::size_t pretested_together = 256;
+    static constexpr std::size_t screened_together = 256;
     /// Screens points of one mesh, of parallel light.
     void screen(const points& at, std::size_t first, std::size_t last, const results& into) const {
         const std::uint32_t own = at.mesh[first];
         const bool is_grid = own < grids_.size() && grids_[own];
-        decision decisions[pretested_together];
+        decision decisions[screened_together];
         std::fill_n(decisions, last - first, decision::undecided);
-        if (is_grid && at.face_light) grids_[own]->decide_self(at, first, last, decisions, level_);
+        if (is_grid && at.face_light) grids_[own]->decide_own_points(at, first, last, decisions, level_);
         const detail::tiled_plane& state = planes_.front();
         for (std::size_t i = first; i < last; ++i) {
             const std::uint32_t only = state.casters_of_tiles.only(state.tile_of(state.plane(at[i])));
@@ -17103,7 +17105,7 @@ class exact_occlusion {
         const auto decide = [&](std::uint32_t triangle) {
             return !(is_own && at.triangle[i] == triangle) && is_blocked_by(number, triangle, at[i]);
         };
-        return is_own && at.face_light ? grids_[number]->blocks_self(at[i], decide)
+        return is_own && at.face_light ? grids_[number]->blocks_own_point(at[i], decide)
                                        : grids_[number]->blocks(at[i], decide);
     }
     bool is_blocked_by(std::uint32_t number, std::uint32_t triangle, const glm::dvec3& p) const {
@@ -17127,11 +17129,11 @@ class exact_occlusion {
     void add_point_planes(const point_light& light, const bounding_box& bounds, int side, E& ex) {
         for (int i = 0; i < 6; ++i) {
             const detail::light_plane plane(light, i);
-            if (!detail::is_visible_on(plane, bounds)) {
+            if (!detail::may_project_onto(plane, bounds)) {
                 planes_.add({});
                 continue;
             }
-            const auto [lower, upper] = detail::visible_extent(plane, bounds);
+            const auto [lower, upper] = detail::projected_extent(plane, bounds);
             add_plane(plane, {lower, upper - lower, side, side}, 0x1p-40, 0x1p-20 * reach_of(bounds), ex);
         }
     }
@@ -17243,11 +17245,11 @@ namespace detail::inline INSONIFY_FLAGS {
 /// The rectangle, extended towards the light to all ground that can throw a shadow on its points.
 ///
 /// A ray from the lowest point to a parallel light is above the highest ground after (highest - lowest) cot(elevation)
-/// metres; to a light nearby, after the fraction (highest - lowest) / (light's height - lowest) of the way. For an
+/// metres; to a point light, after the fraction (highest - lowest) / (light's height - lowest) of the way. For an
 /// extended light, the corners of a square around it are tried: the distance is a quotient of linear functions of the
 /// position on the light, so its maximum is in a corner.
 /// @param range   heights of the lowest point and of the highest ground
-/// @param light   in the frame of the rectangle; a near one faces the origin
+/// @param light   in the frame of the rectangle; the disc of a point light faces the origin
 /// @param radius  of the light over its distance
 /// @param longest  upper bound of the extension along each axis, metres
 inline ground_rect casting_ground(const ground_rect& points, const seabed::height_range& range,
@@ -17255,9 +17257,9 @@ inline ground_rect casting_ground(const ground_rect& points, const seabed::heigh
     ground_rect all = points;
     const double relief = range.highest - range.lowest;
     if (!(relief > 0)) return all;
-    const auto* const point = std::get_if<shadow::point_light>(&light);
-    const auto light_at = [&](const glm::dvec2& disc_offset) {  // a position if it is near, else a direction
-        if (point != nullptr) return shadow::point_of_disc(point->position, disc_offset);
+    const auto* const source = std::get_if<shadow::point_light>(&light);
+    const auto light_at = [&](const glm::dvec2& disc_offset) {  // a position for a point light, else a direction
+        if (source != nullptr) return shadow::point_of_disc(source->position, disc_offset);
         const shadow::light_frame frame(std::get<shadow::directional_light>(light));
         return shadow::toward_disc(frame.to_light(), frame.travel(), disc_offset);
     };
@@ -17268,7 +17270,7 @@ inline ground_rect casting_ground(const ground_rect& points, const seabed::heigh
             for (int axis = 0; axis < 2; ++axis) {
                 for (const double from : {points.lower[axis], points.upper[axis]}) {
                     double way;
-                    if (point != nullptr) {
+                    if (source != nullptr) {
                         const double share = to.z > range.highest ? relief / (to.z - range.lowest) : 1;
                         way = share * (to[axis] - from);
                     } else {
@@ -17978,15 +17980,15 @@ struct point_batch {
 /// away from its back.
 class point_list {
   public:
-    std::size_t facing = 0, back_facing = 0;
+    std::size_t facing = 0, facing_away = 0;
 
     /// @param room         the batch to fill
     /// @param first, last  the range of it for this list
     point_list(point_batch& room, std::size_t first, std::size_t last) : room_(&room), first_(first), last_(last) {}
 
-    std::size_t size() const { return facing + back_facing; }
+    std::size_t size() const { return facing + facing_away; }
     shadow::points facing_points() const { return room_->part(first_, facing); }
-    shadow::points back_facing_points() const { return room_->part(last_ - back_facing, back_facing); }
+    shadow::points points_facing_away() const { return room_->part(last_ - facing_away, facing_away); }
     /// The pixel, its light and the caster of a point; facing ones are counted first.
     std::size_t pixel(std::size_t point) const { return room_->pixel[at(point)]; }
     float direct(std::size_t point) const { return room_->direct[at(point)]; }
@@ -17994,7 +17996,7 @@ class point_list {
 
     INSONIFY_INLINE void add(bool is_facing, double x, double y, double z, std::uint32_t mesh, std::uint32_t triangle,
                              std::uint32_t pixel, float direct) {
-        const std::size_t to = is_facing ? first_ + facing++ : last_ - ++back_facing;
+        const std::size_t to = is_facing ? first_ + facing++ : last_ - ++facing_away;
         room_->x[to] = x;
         room_->y[to] = y;
         room_->z[to] = z;
@@ -18006,7 +18008,7 @@ class point_list {
 
   private:
     std::size_t at(std::size_t point) const {
-        return point < facing ? first_ + point : last_ - back_facing + (point - facing);
+        return point < facing ? first_ + point : last_ - facing_away + (point - facing);
     }
 
     point_batch* room_;
@@ -18039,8 +18041,8 @@ void for_each_batch(const point_list& points, const shadow::results& all, std::u
     if (points.facing > 0)
         visit(batch(points.facing_points(), true, targets),
               shadow::results{all.lit.first(points.facing), all.caster.first(points.facing)});
-    if (points.back_facing > 0)
-        visit(batch(points.back_facing_points(), false, targets),
+    if (points.facing_away > 0)
+        visit(batch(points.points_facing_away(), false, targets),
               shadow::results{all.lit.subspan(points.facing), all.caster.subspan(points.facing)});
 }
 
@@ -18070,7 +18072,7 @@ namespace detail::inline INSONIFY_FLAGS {
 struct view_from_object {
     glm::dvec3 eye;                      ///< the camera
     glm::dvec3 corner_ray, right, down;  ///< rays through pixels: of pixel (0, 0), and from pixel to pixel
-    glm::dvec3 light;                    ///< towards a parallel light, or where a near one is
+    glm::dvec3 light;                    ///< towards a parallel light, or the position of a point light
 
     view_from_object(const overhead_geometry& view, const affine& to_rig) {
         const affine back = inverse(to_rig);
@@ -18089,7 +18091,7 @@ struct point_kernel {
     const view_from_object& from;
     std::span<const undecided_pixel> pixels;  ///< with the ids of triangles within the object
     bool has_point_light;
-    bool includes_back_facing;
+    bool includes_facing_away;
     const rect& box;      ///< the tile's pixels
     std::uint32_t pitch;  ///< pixels from one row of the picture to the next
     point_list& points;
@@ -18196,7 +18198,7 @@ struct point_kernel {
         b = b * scale;
         c = c * scale;
         const bits inside = bits(b >= border) & bits(c >= border) & bits(b + c <= 1.0 - border);
-        if (any(bits(inside == 0))) hold_inside<N>(b, c);
+        if (any(bits(inside == 0))) clamp_to_triangle<N>(b, c);
 
         // Which side of the facet is seen, and whether the light meets it.
         reals at[3], facet[3], toward[3], seen, along, size, way;
@@ -18210,7 +18212,7 @@ struct point_kernel {
         dot(size, facet, facet);
         dot(way, toward, toward);
         along = seen > 0.0 ? along : 0.0 - along;
-        const bits faces = bits(along > 0.0) & bits(along * along > (grazed * grazed * size) * way);
+        const bits faces = bits(along > 0.0) & bits(along * along > (min_facing_sine * min_facing_sine * size) * way);
         double places[3][static_cast<unsigned>(N)];
         std::int64_t facing[static_cast<unsigned>(N)];
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
@@ -18219,7 +18221,7 @@ struct point_kernel {
         });
         store(facing, faces);
         for (std::size_t k = 0; k < count; ++k) {
-            if (facing[k] == 0 && !includes_back_facing) continue;
+            if (facing[k] == 0 && !includes_facing_away) continue;
             const undecided_pixel& shown = pixels[start + k];
             points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], object.caster, shown.id,
                        static_cast<std::uint32_t>(box.y0 + shown.row) * pitch +
@@ -18230,7 +18232,7 @@ struct point_kernel {
 
     /// Facets at a smaller sine to the light count as facing away: vertices are rounded to 2^-24, and facets
     /// parallel to the light up to that error are dark.
-    static constexpr double grazed = 0x1p-22;
+    static constexpr double min_facing_sine = 0x1p-22;
 
     /// Points keep this barycentric distance from the edges of their triangle: a point on an edge would lie in the
     /// adjacent triangle, too, which then would not block it.
@@ -18238,7 +18240,7 @@ struct point_kernel {
 
     /// Rounding to sub-pixels may show a triangle beside its edge; one seen from its edge gives NaN or infinity.
     template <int N>
-    INSONIFY_RARE static void hold_inside(lanes<double, N>& b, lanes<double, N>& c) {
+    INSONIFY_RARE static void clamp_to_triangle(lanes<double, N>& b, lanes<double, N>& c) {
         using reals = lanes<double, N>;
         const auto clamp = [](reals& x) INSONIFY_INLINE_LAMBDA {
             x = x > border ? x : reals{} + border;
@@ -18327,7 +18329,7 @@ struct grid {
     glm::dvec2 origin{0.0, 0.0};
     double spacing = 0.02;      ///< metres between vertices, > 0 and < 10^6
     int width = 2, height = 2;  ///< vertices, at least 2
-    bool band_limited = false;  ///< relief that the spacing can't carry fades out instead of aliasing
+    bool band_limited = false;  ///< relief that the spacing can't resolve fades out instead of aliasing
     glm::ivec2 first{0, 0};
 };
 
@@ -19377,8 +19379,7 @@ struct probe {
     /// Cells per pixel of the ground truth, and the most that settings take; grids of more than half as many are
     /// compared with a truth of twice as many.
     double finest = 4;
-    double usable_fraction =
-        0.7;  ///< fraction of the budget that they may use; the rest is for other parts of the seabed
+    double usable_fraction = 0.7;  ///< of the budget that they may use; the rest is for other parts of the seabed
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -19583,7 +19584,7 @@ struct settings {
     /// A distance d across a camera ray that leans by psi from the vertical moves the image by d / cos psi on a plane
     /// at that height (Thatcher Ulrich. Rendering Massive Terrains using Chunked Level of Detail Control. SIGGRAPH
     /// course, 2002). Across a ray of light at an elevation e it moves the shadow on level ground by d / sin e, and by
-    /// d H / (H - h) / sin e where a light at the height H is near and the target is h high.
+    /// d H / (H - h) / sin e for a point light at the height H and a target that is h high.
     /// @param placement  of the target, which is taken as a ball of `radius` metres, in its own frame, around its
     /// position
     INSONIFY_TAGGED double deviation(const pose& placement, double radius) const {
@@ -20056,7 +20057,7 @@ class flat_polygon {
         v_ = (away + (area[away] < 0 ? 1 : 2)) % 3;
     }
 
-    /// Twice the area of the triangle, positive for a left orient2d at b.
+    /// Twice the area of the triangle, positive for a left turn at b.
     double orient2d(std::size_t a, std::size_t b, std::size_t c) const {
         const glm::dvec2 p = at(a), q = at(b), r = at(c);
         return (q.x - p.x) * (r.y - q.y) - (q.y - p.y) * (r.x - q.x);
@@ -24242,7 +24243,7 @@ inline namespace INSONIFY_FLAGS {
 struct receiver_plane {
     /// A facet that gets less than this share of the light on level ground counts as facing away: the last 2 %, where
     /// the slope goes to infinity and every map leaks.
-    static constexpr double grazed = 0.02;
+    static constexpr double min_facing_sine = 0.02;
 
     glm::dvec3 uvz{};
     double slope_u = 0, slope_v = 0;  ///< dz / du, dz / dv; 0 where it faces away
@@ -24258,7 +24259,7 @@ struct receiver_plane {
         const double along = facet.x * travel.x + facet.y * travel.y;
         const double across = facet.y * travel.x - facet.x * travel.y;
         const double facing = facet.z - along * frame.cot_elevation();
-        faces_light = facing > 0 && facing * facing > grazed * grazed * numeric::dot(facet, facet);
+        faces_light = facing > 0 && facing * facing > min_facing_sine * min_facing_sine * numeric::dot(facet, facet);
         if (faces_light) {
             slope_u = -along / facing;
             slope_v = -across / facing;
@@ -24396,9 +24397,9 @@ class map_occlusion {
             into.lit[i] = 1;
             into.caster[i] = invalid_id;
             const glm::dvec3 facet = facet_of(casters_, at, i);
-            const bool is_back_facing = numeric::dot(facet, frame_.to_light()) < 0;
-            const receiver_plane plane(frame_, at[i], is_back_facing ? -facet : facet);
-            const bool is_grazed = !plane.faces_light && facet != glm::dvec3(0);
+            const bool is_facing_away = numeric::dot(facet, frame_.to_light()) < 0;
+            const receiver_plane plane(frame_, at[i], is_facing_away ? -facet : facet);
+            const bool is_edge_on = !plane.faces_light && facet != glm::dvec3(0);
             const glm::ivec2 tile = tile_of(glm::dvec2(plane.uvz));
             for (const std::uint32_t k : casters_of_tiles_.of(static_cast<std::size_t>(tile.y * side + tile.x))) {
                 if (k >= at.casters || !(into.lit[i] > 0)) break;
@@ -24406,7 +24407,7 @@ class map_occlusion {
                 into.lit[i] = (std::min)(into.lit[i], fraction);
                 if (fraction < 0.5f && into.caster[i] == invalid_id) into.caster[i] = k;
             }
-            if (!is_grazed) continue;
+            if (!is_edge_on) continue;
             // The facet is edge-on to the light: its own mesh shadows it.
             into.lit[i] = 0;
             into.caster[i] = (std::min)(into.caster[i], at.mesh[i]);
@@ -24428,8 +24429,8 @@ class map_occlusion {
     }
 
     static light_frame parallel(const any_light& light) {
-        if (const auto* point = std::get_if<point_light>(&light)) {
-            const glm::dvec3& p = point->position;
+        if (const auto* source = std::get_if<point_light>(&light)) {
+            const glm::dvec3& p = source->position;
             insonify::detail::refuse("the distance of the light (overhead.light_distance)",
                                      numeric::square_root(numeric::dot(p, p)),
                                      "infinite for shadow maps; shadow::exact and shadow::penumbra take a point_light");
@@ -24543,7 +24544,7 @@ class penumbra_occlusion {
         any_light light;
 
         glm::dvec3 toward(const glm::dvec3& p) const {
-            if (const auto* point = std::get_if<point_light>(&light)) return point->position - p;
+            if (const auto* source = std::get_if<point_light>(&light)) return source->position - p;
             return light_frame(std::get<directional_light>(light)).to_light();
         }
     };
@@ -24552,8 +24553,8 @@ class penumbra_occlusion {
     /// @param disc_offset  from the disc's centre, across and up, divided by the light's distance
     static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& disc_offset) {
         if (disc_offset == glm::dvec2(0)) return light;
-        if (const auto* point = std::get_if<point_light>(&light))
-            return point_light{point_of_disc(point->position, disc_offset)};
+        if (const auto* source = std::get_if<point_light>(&light))
+            return point_light{point_of_disc(source->position, disc_offset)};
         const light_frame frame(std::get<directional_light>(light));
         const glm::dvec3 d = toward_disc(frame.to_light(), frame.travel(), disc_offset);
         const double elevation = numeric::atan2(d.z, numeric::square_root(d.x * d.x + d.y * d.y));
@@ -24867,7 +24868,7 @@ inline constexpr float min_grazing_sine = 1e-3f;
 struct flat_echo {
     double range, altitude;  ///< metres; above the datum
     double bin, spacing;     ///< metres
-    bool is_slant_range;     ///< bins count slant range
+    bool is_slant_range;     ///< bins are of slant range, or else of ground range
 };
 
 /// Gain that compensates spreading and absorption. Seabed whose strength does not depend on the angle comes out level,
@@ -25159,7 +25160,7 @@ struct range_bins {
     float first_range, range;
     int bins;
     side facing;
-    bool is_slant_range;  ///< bins count slant range, or else ground range
+    bool is_slant_range;  ///< bins are of slant range, or else of ground range
 
     template <across_track Axis>
     INSONIFY_MEMBER explicit range_bins(const side_scan_rig<Axis>& rig)
@@ -26030,7 +26031,7 @@ namespace detail::inline INSONIFY_FLAGS {
 /// Converts ranges to positions in bins.
 struct range_axis {
     double first, bin;    ///< metres
-    bool is_slant_range;  ///< bins count slant range, or else ground range
+    bool is_slant_range;  ///< bins are of slant range, or else of ground range
 
     /// Position of an echo at a slant range along a ray.
     float position(const ping_fan::ray& ray, double range) const {
@@ -26265,7 +26266,7 @@ class sliced_target {
     affine to_world_;
     glm::dvec3 centre_{0, 0, -1e30};
     double radius_ = 0;       ///< of its bounding sphere, metres
-    double half_height_ = 0;  ///< from the centre to the highest
+    double half_height_ = 0;  ///< of its box, along the world's z
 };
 
 /// The targets of a scene; those with the same mesh share its tree.
@@ -26564,7 +26565,7 @@ class ping_tracer {
           step_((std::min)(axis_.bin, cell)),
           profile_(bottom, (std::max)(step_, 0.5 * cell), range_),
           bins_(static_cast<std::size_t>(window.bins)) {
-        for (const sliced_target& t : targets) highest_ = (std::max)(highest_, t.highest());
+        for (const sliced_target& t : targets) highest_target_ = (std::max)(highest_target_, t.highest());
     }
 
     /// @returns one per bin, valid until the next call
@@ -26578,13 +26579,13 @@ class ping_tracer {
         double lowest = profile_.lowest(), highest = profile_.highest();
         if (skips_foreground(relief_, axis_.first, p)) lowest = relief_.lowest, highest = relief_.highest;
         if (!(lowest <= highest))  // no seabed here: rays for the targets alone
-            lowest = highest = (std::min)(lowest, altitude - range_ / 16);
+            lowest = highest = (std::min)(lowest_target, altitude - range_ / 16);
         // Through a gap, targets lower than the seabed are received in the window from rays closer to nadir.
         if (axis_.first > 0 && lowest_target < lowest && profile_.has_gaps()) lowest = lowest_target;
         // Depths along a pitched fan are longer. Vertical depths are lower bounds, as above_highest and above_all need.
         const double stretch = 1 / p.cosine_pitch();
         const fan_shape shape = fan_shape::around((altitude - lowest) * stretch, altitude - highest,
-                                                  altitude - (std::max)(highest_, highest));
+                                                  altitude - (std::max)(highest_target_, highest));
         const std::array<double, 3> attitude{p.sine_roll(), p.cosine_roll(), p.cosine_pitch()};
         if (!(shape == fan_.shape()) || attitude != attitude_) build_fan(shape, attitude);
         if (!(altitude > lowest) || profile_[0].down <= 0) return bins_.all();  // the sonar is below the seabed
@@ -26825,7 +26826,7 @@ class ping_tracer {
     range_axis axis_;
     double step_;
     bottom_profile profile_;
-    double highest_ = -1e30;                   ///< of all targets
+    double highest_target_ = -1e30;            ///< of all targets
     std::array<double, 3> attitude_{0, 1, 1};  ///< sine and cosine of the roll, cosine of the pitch
     ping_fan fan_;
     dynamic_array<float> ray_power_;
@@ -27781,14 +27782,14 @@ struct instrument {
     }
     /// Correlation length (1 / e) of speckle intensities, in resolutions, for a pulse or an aperture with a flat band,
     /// whose correlation is the square of sin(u) / u.
-    static constexpr double flat_band_speckle_length = 0.5234;
+    static constexpr double flat_band_speckle_ratio = 0.5234;
     /// Correlation length of speckle intensities across the track, metres.
     INSONIFY_MEMBER double speckle_length_across() const {
-        return flat_band_speckle_length * static_cast<double>(range_resolution);
+        return flat_band_speckle_ratio * static_cast<double>(range_resolution);
     }
     /// The same along the track: see horizontal_beam::speckle_length.
     INSONIFY_MEMBER double speckle_length_along(double slant_range) const {
-        return is_synthetic_aperture() ? flat_band_speckle_length * static_cast<double>(along_track_resolution)
+        return is_synthetic_aperture() ? flat_band_speckle_ratio * static_cast<double>(along_track_resolution)
                                        : horizontal().speckle_length(slant_range, static_cast<double>(wavelength()));
     }
 };
@@ -27856,7 +27857,7 @@ inline namespace INSONIFY_FLAGS {
 /// The light of a rig, in the world.
 inline shadow::any_light light_of(const overhead& rig) {
     shadow::any_light light = overhead_geometry(rig).world_light();
-    if (auto* point = std::get_if<shadow::point_light>(&light)) point->position += glm::dvec3(rig.position, 0);
+    if (auto* source = std::get_if<shadow::point_light>(&light)) source->position += glm::dvec3(rig.position, 0);
     return light;
 }
 
@@ -27942,8 +27943,8 @@ class scene_occlusion {
         return to_world;
     }
     shadow::any_light from_centre(shadow::any_light light) const {
-        if (auto* point = std::get_if<shadow::point_light>(&light))
-            point->position -= glm::dvec3(centre_.x, centre_.y, 0);
+        if (auto* source = std::get_if<shadow::point_light>(&light))
+            source->position -= glm::dvec3(centre_.x, centre_.y, 0);
         return light;
     }
     shadow::point_bounds local(const occlusion_bounds& within) const {
@@ -28295,13 +28296,13 @@ class water_law {
 
     void prepare(const pixel_area& area) {
         first_ = area.x;
-        mean_noise_.clear();
-        for (int i = 0; i < area.width; ++i) mean_noise_.push_back(noise_at(range(area.x + i)) + w_.volume);
+        mean_background_.clear();
+        for (int i = 0; i < area.width; ++i) mean_background_.push_back(noise_at(range(area.x + i)) + w_.volume);
     }
 
     template <std::same_as<float> Pixel>
     Pixel operator()(Pixel intensity, int x, int y) {
-        Pixel sum = intensity + mean_noise_[static_cast<std::size_t>(x - first_)];
+        Pixel sum = intensity + mean_background_[static_cast<std::size_t>(x - first_)];
         if (w_.surface > 0) sum += surface_at(x, y);
         return sum;
     }
@@ -28332,7 +28333,7 @@ class water_law {
 
     Water w_;
     philox_key key_;
-    dynamic_array<float> mean_noise_;
+    dynamic_array<float> mean_background_;
     int first_ = 0;
     std::optional<int> row_;  // of the start below; any number, as images have any origin
     double begins_ = 0;

@@ -30,7 +30,7 @@ const std::tuple policies{named_policy<in::shadow::exact>{"exact", {}},  //
 
 /// Policies that support point lights.
 template <class Policy>
-constexpr bool takes_near_light = std::is_same_v<Policy, in::shadow::exact>;
+constexpr bool takes_point_light = std::is_same_v<Policy, in::shadow::exact>;
 
 struct options {
     std::vector<std::string> policies, scenes, objs;
@@ -194,7 +194,7 @@ int main(int argc, char** argv) {
         std::size_t at = 0;
         const auto run = [&]<class Policy>(const named_policy<Policy>& p) {
             judge::tally& total = totals[at++];
-            if (!is_chosen(o.policies, p.name) || (o.distance > 0 && !takes_near_light<Policy>)) return;
+            if (!is_chosen(o.policies, p.name) || (o.distance > 0 && !takes_point_light<Policy>)) return;
             const judge::tally t = measure(p, s, truth, o, pool);
             print_line(p.name, s.name, t);
             total += t;

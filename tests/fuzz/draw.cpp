@@ -100,8 +100,8 @@ drawing read(byte_reader& bytes) {
 
 [[noreturn]] void fail(const drawing& d, const char* invariant) {
     const in::draw_options<>& o = d.options;
-    std::fprintf(stderr, "%d x %d pixels, %d sub-pixel bits, tile %d, cull %d, keep %d, load %d, level %d\n", d.width,
-                 d.height, o.subpixel_bits, o.tile, static_cast<int>(o.cull), static_cast<int>(o.compare),
+    std::fprintf(stderr, "%d x %d pixels, %d sub-pixel bits, tile %d, cull %d, compare %d, load %d, level %d\n",
+                 d.width, d.height, o.subpixel_bits, o.tile, static_cast<int>(o.cull), static_cast<int>(o.compare),
                  static_cast<int>(o.load), static_cast<int>(o.level));
     for (const glm::uvec3& t : d.mesh.triangles) std::fprintf(stderr, "triangle %u %u %u\n", t.x, t.y, t.z);
     for (const glm::dvec4 p : d.clip) std::fprintf(stderr, "vertex %.9g %.9g %.9g %.9g\n", p.x, p.y, p.z, p.w);

@@ -79,7 +79,7 @@ struct settings {
     /// A distance d across a camera ray that leans by psi from the vertical moves the image by d / cos psi on a plane
     /// at that height (Thatcher Ulrich. Rendering Massive Terrains using Chunked Level of Detail Control. SIGGRAPH
     /// course, 2002). Across a ray of light at an elevation e it moves the shadow on level ground by d / sin e, and by
-    /// d H / (H - h) / sin e where a light at the height H is near and the target is h high.
+    /// d H / (H - h) / sin e for a point light at the height H and a target that is h high.
     /// @param placement  of the target, which is taken as a ball of `radius` metres, in its own frame, around its
     /// position
     INSONIFY_TAGGED double deviation(const pose& placement, double radius) const {

@@ -31,8 +31,7 @@ struct probe {
     /// Cells per pixel of the ground truth, and the most that settings take; grids of more than half as many are
     /// compared with a truth of twice as many.
     double finest = 4;
-    double usable_fraction =
-        0.7;  ///< fraction of the budget that they may use; the rest is for other parts of the seabed
+    double usable_fraction = 0.7;  ///< of the budget that they may use; the rest is for other parts of the seabed
 };
 
 }  // namespace INSONIFY_FLAGS

@@ -117,8 +117,8 @@ struct cell_cut {
 inline namespace INSONIFY_ONCE {
 
 /// The regular grid of a mesh's vertices; none if they are not on one, or a height is not finite.
-/// @param off  distance from the lattice up to which vertices are accepted, in steps; `regular_grid::off` of the result
-///             bounds the actual distance
+/// @param tolerance  distance from the lattice up to which vertices are accepted, in steps; the `lattice_error` of the
+///                   result bounds the actual distance
 INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m, double tolerance = 1.0 / 256);
 
 #if INSONIFY_BODIES

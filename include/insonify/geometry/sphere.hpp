@@ -38,7 +38,7 @@ float longest_semi_axis(const Round& shape) {
 }
 
 #if INSONIFY_BODIES
-/// Turns an profile about z and stretches the result with its normals.
+/// Turns a profile about z and stretches the result with its normals.
 inline mesh stretched_round(const dynamic_array<profile_point>& profile, const char* name, const glm::vec3& aspect,
                             int segments) {
     mesh out = revolve(profile, segments);

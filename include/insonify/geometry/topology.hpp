@@ -28,11 +28,11 @@ struct topology {
     std::size_t triangles = 0;           ///< without the degenerate ones
     std::size_t degenerate = 0;          ///< triangles with two coincident corners, not counted elsewhere
     std::size_t boundary_edges = 0;      ///< edges with one triangle
-    std::size_t non_manifold_edges = 0;  ///< edges with more than two triangles, or two that traverse it the same way
-    std::size_t inward_components = 0;   ///< pieces, connected by vertices, that face inwards or enclose nothing
+    std::size_t inconsistent_edges = 0;  ///< with more than two triangles, or two that traverse them the same way
+    std::size_t inward_components = 0;   ///< connected components that face inwards or enclose nothing
 
     /// Every edge joins two triangles of the same orientation.
-    bool closed() const { return triangles > 0 && boundary_edges == 0 && non_manifold_edges == 0; }
+    bool closed() const { return triangles > 0 && boundary_edges == 0 && inconsistent_edges == 0; }
     /// Closed, with all triangles facing outwards.
     bool solid() const { return closed() && inward_components == 0; }
     /// V - E + F: 2 for a closed surface of one piece without handles.
@@ -117,7 +117,7 @@ inline topology inspect(const mesh& m) {
         if (end - i == 1)
             ++out.boundary_edges;
         else if (end - i > 2 || sides[i + 1].number == sides[i].number)
-            ++out.non_manifold_edges;
+            ++out.inconsistent_edges;
     }
     return out;
 }

@@ -41,7 +41,7 @@ class flat_polygon {
         v_ = (away + (area[away] < 0 ? 1 : 2)) % 3;
     }
 
-    /// Twice the area of the triangle, positive for a left orient2d at b.
+    /// Twice the area of the triangle, positive for a left turn at b.
     double orient2d(std::size_t a, std::size_t b, std::size_t c) const {
         const glm::dvec2 p = at(a), q = at(b), r = at(c);
         return (q.x - p.x) * (r.y - q.y) - (q.y - p.y) * (r.x - q.x);

@@ -45,8 +45,8 @@ struct scanline {
     double origin = 0;       ///< x of sample 0 of the whole row
     double spacing = 1;      ///< >= 0
     std::int64_t first = 0;  ///< index in the whole row of sample 0 here; may be negative
-    /// Metres between the vertices of the grid that the row belongs to: relief that the grid can't carry fades out (see
-    /// `band_limit_gain`). 0: no relief fades.
+    /// Metres between the vertices of the grid that the row belongs to: relief that the grid can't resolve fades out
+    /// (see `band_limit_gain`). 0: no relief fades.
     double grid_spacing = 0;
 
     INSONIFY_MEMBER double x(std::size_t i) const { return origin + spacing * static_cast<double>(number(i)); }
@@ -58,8 +58,8 @@ struct scanline {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Fraction in [0, 1] of a wave's amplitude that a grid carries: 0 up to two samples per wave, which would alias, and 1
-/// from four on. Both in the same unit; a spacing of 0 carries all.
+/// Gain, 0 to 1, on the amplitude of a wave that a grid samples: 0 up to two samples per wave, which would alias, and 1
+/// from four on. Both in the same unit; at a spacing of 0 it is 1.
 ///
 /// Alan Norton, Alyn P. Rockwood, Philip T. Skolmoski. Clamping: A Method of Antialiasing Textured Surfaces by
 /// Bandwidth Limiting in Object Space. SIGGRAPH, 1982.

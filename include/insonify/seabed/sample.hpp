@@ -16,7 +16,7 @@ struct grid {
     glm::dvec2 origin{0.0, 0.0};
     double spacing = 0.02;      ///< metres between vertices, > 0 and < 10^6
     int width = 2, height = 2;  ///< vertices, at least 2
-    bool band_limited = false;  ///< relief that the spacing can't carry fades out instead of aliasing
+    bool band_limited = false;  ///< relief that the spacing can't resolve fades out instead of aliasing
     glm::ivec2 first{0, 0};
 };
 

@@ -56,7 +56,7 @@ class exact_occlusion {
         if (planes_.empty()) return std::fill(into.lit.begin(), into.lit.end(), 1.0f);
         if (planes_.has_point_light()) return std::fill(into.lit.begin(), into.lit.end(), unknown);
         for (std::size_t first = 0, last = 0; first < at.size(); first = last) {
-            const std::size_t end = (std::min)(first + pretested_together, at.size());
+            const std::size_t end = (std::min)(first + screened_together, at.size());
             for (last = first + 1; last < end && at.mesh[last] == at.mesh[first];) ++last;
             screen(at, first, last, into);
         }
@@ -76,7 +76,7 @@ class exact_occlusion {
         // Triangles that other casters may shade are left to the test of points.
         detail::dynamic_array<std::pair<glm::dvec2, glm::dvec2>> shared;
         const detail::tiled_plane& plane = planes_.front();
-        const detail::datum_intercepts intercepts(plane.plane, c.placement, grid);
+        const detail::mesh_plane_intercepts intercepts(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
             if (plane.casters_of_tiles.only(tile) == caster || plane.casters_of_tiles.of(tile).empty()) continue;
             shared.push_back(intercepts.of(plane.tiles.lower + plane.tiles.corner(tile), plane.tiles.tile()));
@@ -132,14 +132,14 @@ class exact_occlusion {
         return c.grid != nullptr && c.may_skip == skip::facing_self &&
                transform_direction(inverse(c.placement), frame.to_light()).z > 0;
     }
-    static constexpr std::size_t pretested_together = 256;
+    static constexpr std::size_t screened_together = 256;
     /// Screens points of one mesh, of parallel light.
     void screen(const points& at, std::size_t first, std::size_t last, const results& into) const {
         const std::uint32_t own = at.mesh[first];
         const bool is_grid = own < grids_.size() && grids_[own];
-        decision decisions[pretested_together];
+        decision decisions[screened_together];
         std::fill_n(decisions, last - first, decision::undecided);
-        if (is_grid && at.face_light) grids_[own]->decide_self(at, first, last, decisions, level_);
+        if (is_grid && at.face_light) grids_[own]->decide_own_points(at, first, last, decisions, level_);
         const detail::tiled_plane& state = planes_.front();
         for (std::size_t i = first; i < last; ++i) {
             const std::uint32_t only = state.casters_of_tiles.only(state.tile_of(state.plane(at[i])));
@@ -161,7 +161,7 @@ class exact_occlusion {
         const auto decide = [&](std::uint32_t triangle) {
             return !(is_own && at.triangle[i] == triangle) && is_blocked_by(number, triangle, at[i]);
         };
-        return is_own && at.face_light ? grids_[number]->blocks_self(at[i], decide)
+        return is_own && at.face_light ? grids_[number]->blocks_own_point(at[i], decide)
                                        : grids_[number]->blocks(at[i], decide);
     }
     bool is_blocked_by(std::uint32_t number, std::uint32_t triangle, const glm::dvec3& p) const {
@@ -185,11 +185,11 @@ class exact_occlusion {
     void add_point_planes(const point_light& light, const bounding_box& bounds, int side, E& ex) {
         for (int i = 0; i < 6; ++i) {
             const detail::light_plane plane(light, i);
-            if (!detail::is_visible_on(plane, bounds)) {
+            if (!detail::may_project_onto(plane, bounds)) {
                 planes_.add({});
                 continue;
             }
-            const auto [lower, upper] = detail::visible_extent(plane, bounds);
+            const auto [lower, upper] = detail::projected_extent(plane, bounds);
             add_plane(plane, {lower, upper - lower, side, side}, 0x1p-40, 0x1p-20 * reach_of(bounds), ex);
         }
     }

@@ -30,7 +30,7 @@ struct directional_light {
     double elevation = numeric::to_radians(6);  ///< radians above the horizon, lowest_elevation to pi / 2
 };
 
-/// Light from a point nearby.
+/// Light from a point.
 struct point_light {
     glm::dvec3 position{0, 0, 1};  ///< metres
 };

@@ -71,9 +71,9 @@ class map_occlusion {
             into.lit[i] = 1;
             into.caster[i] = invalid_id;
             const glm::dvec3 facet = facet_of(casters_, at, i);
-            const bool is_back_facing = numeric::dot(facet, frame_.to_light()) < 0;
-            const receiver_plane plane(frame_, at[i], is_back_facing ? -facet : facet);
-            const bool is_grazed = !plane.faces_light && facet != glm::dvec3(0);
+            const bool is_facing_away = numeric::dot(facet, frame_.to_light()) < 0;
+            const receiver_plane plane(frame_, at[i], is_facing_away ? -facet : facet);
+            const bool is_edge_on = !plane.faces_light && facet != glm::dvec3(0);
             const glm::ivec2 tile = tile_of(glm::dvec2(plane.uvz));
             for (const std::uint32_t k : casters_of_tiles_.of(static_cast<std::size_t>(tile.y * side + tile.x))) {
                 if (k >= at.casters || !(into.lit[i] > 0)) break;
@@ -81,7 +81,7 @@ class map_occlusion {
                 into.lit[i] = (std::min)(into.lit[i], fraction);
                 if (fraction < 0.5f && into.caster[i] == invalid_id) into.caster[i] = k;
             }
-            if (!is_grazed) continue;
+            if (!is_edge_on) continue;
             // The facet is edge-on to the light: its own mesh shadows it.
             into.lit[i] = 0;
             into.caster[i] = (std::min)(into.caster[i], at.mesh[i]);
@@ -103,8 +103,8 @@ class map_occlusion {
     }
 
     static light_frame parallel(const any_light& light) {
-        if (const auto* point = std::get_if<point_light>(&light)) {
-            const glm::dvec3& p = point->position;
+        if (const auto* source = std::get_if<point_light>(&light)) {
+            const glm::dvec3& p = source->position;
             insonify::detail::refuse("the distance of the light (overhead.light_distance)",
                                      numeric::square_root(numeric::dot(p, p)),
                                      "infinite for shadow maps; shadow::exact and shadow::penumbra take a point_light");

@@ -22,7 +22,7 @@ inline namespace INSONIFY_FLAGS {
 struct receiver_plane {
     /// A facet that gets less than this share of the light on level ground counts as facing away: the last 2 %, where
     /// the slope goes to infinity and every map leaks.
-    static constexpr double grazed = 0.02;
+    static constexpr double min_facing_sine = 0.02;
 
     glm::dvec3 uvz{};
     double slope_u = 0, slope_v = 0;  ///< dz / du, dz / dv; 0 where it faces away
@@ -38,7 +38,7 @@ struct receiver_plane {
         const double along = facet.x * travel.x + facet.y * travel.y;
         const double across = facet.y * travel.x - facet.x * travel.y;
         const double facing = facet.z - along * frame.cot_elevation();
-        faces_light = facing > 0 && facing * facing > grazed * grazed * numeric::dot(facet, facet);
+        faces_light = facing > 0 && facing * facing > min_facing_sine * min_facing_sine * numeric::dot(facet, facet);
         if (faces_light) {
             slope_u = -along / facing;
             slope_v = -across / facing;

@@ -57,7 +57,7 @@ class penumbra_occlusion {
         any_light light;
 
         glm::dvec3 toward(const glm::dvec3& p) const {
-            if (const auto* point = std::get_if<point_light>(&light)) return point->position - p;
+            if (const auto* source = std::get_if<point_light>(&light)) return source->position - p;
             return light_frame(std::get<directional_light>(light)).to_light();
         }
     };
@@ -66,8 +66,8 @@ class penumbra_occlusion {
     /// @param disc_offset  from the disc's centre, across and up, divided by the light's distance
     static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& disc_offset) {
         if (disc_offset == glm::dvec2(0)) return light;
-        if (const auto* point = std::get_if<point_light>(&light))
-            return point_light{point_of_disc(point->position, disc_offset)};
+        if (const auto* source = std::get_if<point_light>(&light))
+            return point_light{point_of_disc(source->position, disc_offset)};
         const light_frame frame(std::get<directional_light>(light));
         const glm::dvec3 d = toward_disc(frame.to_light(), frame.travel(), disc_offset);
         const double elevation = numeric::atan2(d.z, numeric::square_root(d.x * d.x + d.y * d.y));

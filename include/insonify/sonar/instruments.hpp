@@ -43,14 +43,14 @@ struct instrument {
     }
     /// Correlation length (1 / e) of speckle intensities, in resolutions, for a pulse or an aperture with a flat band,
     /// whose correlation is the square of sin(u) / u.
-    static constexpr double flat_band_speckle_length = 0.5234;
+    static constexpr double flat_band_speckle_ratio = 0.5234;
     /// Correlation length of speckle intensities across the track, metres.
     INSONIFY_MEMBER double speckle_length_across() const {
-        return flat_band_speckle_length * static_cast<double>(range_resolution);
+        return flat_band_speckle_ratio * static_cast<double>(range_resolution);
     }
     /// The same along the track: see horizontal_beam::speckle_length.
     INSONIFY_MEMBER double speckle_length_along(double slant_range) const {
-        return is_synthetic_aperture() ? flat_band_speckle_length * static_cast<double>(along_track_resolution)
+        return is_synthetic_aperture() ? flat_band_speckle_ratio * static_cast<double>(along_track_resolution)
                                        : horizontal().speckle_length(slant_range, static_cast<double>(wavelength()));
     }
 };

@@ -30,7 +30,7 @@ inline namespace INSONIFY_FLAGS {
 /// The light of a rig, in the world.
 inline shadow::any_light light_of(const overhead& rig) {
     shadow::any_light light = overhead_geometry(rig).world_light();
-    if (auto* point = std::get_if<shadow::point_light>(&light)) point->position += glm::dvec3(rig.position, 0);
+    if (auto* source = std::get_if<shadow::point_light>(&light)) source->position += glm::dvec3(rig.position, 0);
     return light;
 }
 
@@ -116,8 +116,8 @@ class scene_occlusion {
         return to_world;
     }
     shadow::any_light from_centre(shadow::any_light light) const {
-        if (auto* point = std::get_if<shadow::point_light>(&light))
-            point->position -= glm::dvec3(centre_.x, centre_.y, 0);
+        if (auto* source = std::get_if<shadow::point_light>(&light))
+            source->position -= glm::dvec3(centre_.x, centre_.y, 0);
         return light;
     }
     shadow::point_bounds local(const occlusion_bounds& within) const {

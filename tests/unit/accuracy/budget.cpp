@@ -169,8 +169,8 @@ TEST_CASE("A target's facets displace its outline and its shadow by less than th
     in::overhead lamp = rig;
     lamp.light_distance = static_cast<float>(2.4 / std::sin(0.15));
     const double foot = in::overhead_geometry(lamp).light_position().x;
-    const acc::settings<> near_light{.silhouette_error = 1e9, .shadow_edge_error = 1, .rig = lamp};
-    CHECK(near_light.deviation({.position = {foot + 3.2, 0, 1}}, 0.2) ==
+    const acc::settings<> point_light{.silhouette_error = 1e9, .shadow_edge_error = 1, .rig = lamp};
+    CHECK(point_light.deviation({.position = {foot + 3.2, 0, 1}}, 0.2) ==
           Approx(0.5 * pixel * 1.2 / std::hypot(3.4, 1.2)));
     // A pose's scale applies to the shape's deviation.
     const acc::settings<> how{.rig = rig};

@@ -25,7 +25,7 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-TEST_CASE("Masks are compared by their intersection over union, false and missed pixels") {
+TEST_CASE("Masks are compared by their intersection over union, false positives and false negatives") {
     const mask truth = rectangle(20, 20, 5, 5, 15, 15), shifted = rectangle(20, 20, 6, 5, 16, 15);
     const auto d = accuracy::compare_masks(shifted, truth);
     CHECK(d.true_positives == 90);

@@ -124,7 +124,7 @@ TEST_CASE("release() frees the kept blocks") {
     CHECK(context.kept_bytes() > 0);
 }
 
-TEST_CASE("release() resets the peak, so that a block in use is freed and not kept unless more are allocated before") {
+TEST_CASE("release() resets the peak: a block in use is freed later, not kept, unless more is allocated first") {
     in::context context;
     in::image<float> in_use(512, 512, uninitialized{}, context.memory());
     context.release();

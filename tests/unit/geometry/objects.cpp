@@ -47,7 +47,7 @@ void check_solid(const in::mesh& m) {
     const in::topology t = in::inspect(m);
     CHECK(t.degenerate == 0);
     CHECK(t.boundary_edges == 0);
-    CHECK(t.non_manifold_edges == 0);
+    CHECK(t.inconsistent_edges == 0);
     CHECK(t.inward_components == 0);
     CHECK(t.solid());
     REQUIRE(m.normals.size() == m.positions.size());

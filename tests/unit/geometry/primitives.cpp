@@ -191,7 +191,7 @@ TEST_CASE("Cylinders lie along x, cones stand along z, hemispheres stand on z = 
     CHECK(extent(to_mesh(in::hemisphere{.radius = 1, .aspect = {1, 1, 2}})) == box({-1, -1, 0}, {1, 1, 2}));
 }
 
-TEST_CASE("An outline turns about any axis without being mirrored") {
+TEST_CASE("A profile turns about any axis without being mirrored") {
     const std::vector<in::profile_point> can = {{0, 0, 0, -1}, {1, 0, 0, -1}, {1, 0, 1, 0},
                                                 {1, 2, 1, 0},  {1, 2, 0, 1},  {0, 2, 0, 1}};
     const auto around = GENERATE(in::axis::x, in::axis::y, in::axis::z);
@@ -272,7 +272,7 @@ TEST_CASE("shared_mesh::of() gives a primitive the properties that analysis find
     check(in::cylinder{.segments = 1 << 20});
 }
 
-TEST_CASE("Topology distinguishes open, tangled and closed surfaces") {
+TEST_CASE("Topology distinguishes open, inconsistent and closed surfaces") {
     in::mesh m;
     m.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     m.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
@@ -283,14 +283,14 @@ TEST_CASE("Topology distinguishes open, tangled and closed surfaces") {
         CHECK(in::inspect(m).boundary_edges == 3);
         CHECK_FALSE(in::inspect(m).closed());
     }
-    SECTION("a turned triangle tangles its three edges") {
+    SECTION("a reversed triangle makes its three edges inconsistent") {
         std::swap(m.triangles[0].x, m.triangles[0].y);
-        CHECK(in::inspect(m).non_manifold_edges == 3);
+        CHECK(in::inspect(m).inconsistent_edges == 3);
     }
-    SECTION("a third triangle at an edge tangles it") {
+    SECTION("a third triangle makes an edge inconsistent") {
         m.positions.push_back({5, 5, 5});
         m.triangles.push_back({0, 1, 4});
-        CHECK(in::inspect(m).non_manifold_edges == 1);
+        CHECK(in::inspect(m).inconsistent_edges == 1);
         CHECK(in::inspect(m).boundary_edges == 2);
     }
     SECTION("a repeated corner is counted and left out; NaN equals nothing; -0 equals 0") {

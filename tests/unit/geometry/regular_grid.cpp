@@ -115,7 +115,7 @@ TEST_CASE("Meshes that are no regular grid are not taken for one") {
     }));
 }
 
-TEST_CASE("regular_grid::off is the largest distance of a vertex from its lattice position, in grid steps") {
+TEST_CASE("regular_grid::lattice_error is the largest distance of a vertex from its lattice position, in grid steps") {
     // Exact in float: steps of (1, 0.5) and (-0.5, 0.25), whose parallelogram has an area of 0.5.
     in::mesh m = grid_of(9, 9);
     for (std::size_t i = 0; i < m.positions.size(); ++i) {

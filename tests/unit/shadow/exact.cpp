@@ -283,10 +283,10 @@ TEST_CASE("Points that face away are named after the first caster that blocks th
         for (const double elevation : {3.0, 10.0, 20.0}) {
             const shadow::directional_light light = parallel(20, elevation);
             const lit::mesh own(mesh, light);
-            const lit::point_list lit_list = own.facing(500, 3), list = own.back_facing(500, 3);
-            shadow::points back_facing = list;
-            back_facing.face_light = false;
-            const shadow::points at[] = {lit_list, back_facing};
+            const lit::point_list lit_list = own.facing(500, 3), list = own.facing_away(500, 3);
+            shadow::points facing_away = list;
+            facing_away.face_light = false;
+            const shadow::points at[] = {lit_list, facing_away};
             shadow::caster casters[] = {lit::caster_of(*own), lit::caster_of(roof)};
             CAPTURE(elevation, list.size());
             const auto tested = [&] {

@@ -131,7 +131,7 @@ TEST_CASE("Few points of a seabed need a triangle test, and all agree with rays"
                                            bottom.surface.corner(triangle, 2), p);
                     };
                 };
-                wrong += caster.blocks_self(own[i], decide_among(own[i], own.triangle(i))) !=
+                wrong += caster.blocks_own_point(own[i], decide_among(own[i], own.triangle(i))) !=
                                  bottom.surface.is_blocked(own[i], own.triangle(i))
                              ? 1
                              : 0;

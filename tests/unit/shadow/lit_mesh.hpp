@@ -121,7 +121,7 @@ class mesh {
     /// Points on facets whose front faces the light.
     point_list facing(std::size_t count, std::uint64_t seed) const { return sampled(count, seed, 1); }
     /// Points on facets whose front faces away from it.
-    point_list back_facing(std::size_t count, std::uint64_t seed) const { return sampled(count, seed, -1); }
+    point_list facing_away(std::size_t count, std::uint64_t seed) const { return sampled(count, seed, -1); }
 
     /// Number of points whose result differs from the oracle's.
     int wrong(const point_list& points) const { return wrong(points, dark(points)); }

@@ -205,9 +205,9 @@ TEST_CASE("A gap that ends at sampled positions is as wide on both sides of the 
 }
 
 TEST_CASE("In a gap no bin has a label of seabed, on either side, in ground range and in slant range") {
-    const auto bed = [](double x, double) { return x > 8 && x < 12 ? no_data : 0.0f; };
+    const auto bed = [](double x, double) { return std::abs(x) > 8 && std::abs(x) < 12 ? no_data : 0.0f; };
     in::scene s = over(ground{bed, 0, 0});
-    s.add(in::cube{}, {.position = {14, 0, 0.5}}, "cube");  // rays to it pass over the gap
+    for (const double x : {-14.0, 14.0}) s.add(in::cube{}, {.position = {x, 0, 0.5}}, "cube");  // seen over the gap
     const in::record_options<> options{.cell = 1};
     const auto check = [&](auto rig) {
         rig.ping_spacing = 1, rig.pings = 1, rig.range = 13, rig.bins = 260;
@@ -220,8 +220,27 @@ TEST_CASE("In a gap no bin has a label of seabed, on either side, in ground rang
         CHECK(labelled > 80);
         CHECK(silent <= 2);  // at the borders
     };
-    check(in::side_scan{});
-    check(in::ground_range{});
+    for (const in::side side : {in::side::port, in::side::starboard}) {
+        check(in::side_scan{.side = side});
+        check(in::ground_range{.side = side});
+    }
+}
+
+TEST_CASE("Without a seabed a target echoes as over a silent one, at any depth below the sonar") {
+    for (const double depth : {0.0, 1.5, 4.0, 12.0}) {
+        in::scene s = over(ground{[=](double, double) { return static_cast<float>(-depth); }, -depth, -depth});
+        s.bottom.fill({0});
+        s.add(in::sphere{.radius = 0.5f}, {.position = {8, 0, 0.5 - depth}}, "sphere");
+        const in::ping p{.position = {0, 0, 5}};
+        const auto over_silent = hear(s, p, 0, 30, 300);
+        s.seabed = in::seabed::none{};
+        const auto alone = hear(s, p, 0, 30, 300);
+        CHECK(target_energy(alone) > 0.01);
+        for (int b = 0; b < 300; ++b) {
+            CAPTURE(depth, b);
+            CHECK(alone.image(b, 0) == Approx(over_silent.image(b, 0)).epsilon(1e-3).margin(1e-5));
+        }
+    }
 }
 
 TEST_CASE("A window that begins behind a step has the labels of the whole recording") {

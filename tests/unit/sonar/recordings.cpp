@@ -15,7 +15,7 @@ using single_pings::cross_sections;
 using single_pings::level_ground;
 using single_pings::one_metre;
 
-TEST_CASE("Row i is ping i in every recording, the first on top; flipped_vertically turns rows, labels and numbers") {
+TEST_CASE("Row i is ping i in every recording, the first on top; flipped_vertically flips images, labels and numbers") {
     in::scene s;
     s.seabed = in::seabed::ripples{};
     s.add(in::cube{}, {.position = {10, 1.5, 0.5}}, "cube");

@@ -49,7 +49,7 @@ extent where(int width, Fn&& holds) {
 }  // namespace
 
 TEST_CASE(
-    "A pixel of level ground is the sum of its direct light, sky and ambient light, under near and parallel lights") {
+    "A pixel of level ground is the sum of its direct light, sky and ambient light, under point and parallel lights") {
     const float distance = GENERATE(5.0f, 1000.0f, std::numeric_limits<float>::infinity());
     const in::overhead rig{.altitude = 3,
                            .field_of_view = 90_deg,

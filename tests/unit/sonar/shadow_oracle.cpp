@@ -122,7 +122,7 @@ TEST_CASE("Oracle: a box darkens the ground where the light's ray enters it, and
         }
 }
 
-TEST_CASE("Oracle: a ball's shadow is an ellipse, of light from far away and from nearby") {
+TEST_CASE("Oracle: a ball's shadow is an ellipse, of parallel light and of a point light") {
     const double radius = 0.5;
     const in::mesh ball = shapes::blob(192, 97, [&](const glm::dvec3&) { return radius; });
     const glm::dvec3 centre(0.0123, 0.0457, 0.7);
@@ -146,7 +146,7 @@ TEST_CASE("Oracle: a ball's shadow is an ellipse, of light from far away and fro
         }
 }
 
-TEST_CASE("Oracle: under a light nearby, the shadow of a square is a larger square") {
+TEST_CASE("Oracle: under a point light, the shadow of a square is a larger square") {
     const double height = 0.5, half = 0.25, light = 0.8;
     const in::mesh square = shapes::sheet(
         1, 1, [&](double u, double v) { return glm::dvec3(half * (2 * u - 1), half * (2 * v - 1), height); });

@@ -70,8 +70,9 @@ class ray_oracle {
         }
     }
 
-    /// Compares a picture's mask with rays towards a light, parallel from `light` or, if it is near, starting there.
-    scenes::difference compare(const in::labels& labels, const glm::dvec3& light, bool is_near = false) const {
+    /// Compares a picture's mask with rays towards a light, parallel from `light` or, for a point light, starting
+    /// there.
+    scenes::difference compare(const in::labels& labels, const glm::dvec3& light, bool is_point_light = false) const {
         // Slabs along the light, so that each pixel tests few triangles. They overlap by their width.
         const glm::dvec3 side = std::abs(light.x) + std::abs(light.y) > 0
                                     ? glm::normalize(glm::dvec3(-light.y, light.x, 0))
@@ -100,14 +101,15 @@ class ray_oracle {
                 const auto own = static_cast<std::size_t>(shown_[at]);
                 const scenes::triangle& t = triangles_[own];
                 const glm::dvec3 p = glm::dvec3(0, 0, altitude_) + depth_[at] * ray(x, y);
-                const glm::dvec3 along = is_near ? light - p : light;
+                const glm::dvec3 along = is_point_light ? light - p : light;
                 const glm::dvec3 n = glm::cross(t.b - t.a, t.c - t.a);
                 bool lit = glm::dot(n, along) * -glm::dot(n, ray(x, y)) > 0;
-                const auto& candidates = is_near ? all : within[static_cast<std::size_t>(slab_of(p))];
+                const auto& candidates = is_point_light ? all : within[static_cast<std::size_t>(slab_of(p))];
                 for (std::size_t i = 0; lit && i < candidates.size(); ++i) {
                     if (candidates[i] == own) continue;
                     const double hit = distance(triangles_[candidates[i]], p, along);
-                    lit = !(hit > (is_near ? 1e-12 : 1e-9 * altitude_) && hit < (is_near ? 1 - 1e-9 : no_hit));
+                    lit = !(hit > (is_point_light ? 1e-12 : 1e-9 * altitude_) &&
+                            hit < (is_point_light ? 1 - 1e-9 : no_hit));
                 }
                 d.add(labels.shadow(x, y) == in::labels::no_shadow, lit);
             }

@@ -9,7 +9,7 @@
 namespace in = insonify;
 using namespace in::literals;
 
-TEST_CASE("mirrored(), turned() and beside() arrange pictures") {
+TEST_CASE("mirrored(), rotated_180() and side_by_side() arrange pictures") {
     const in::image<int> a{{1, 2, 3}, {4, 5, 6}};
     CHECK(in::mirrored(a) == in::image<int>{{3, 2, 1}, {6, 5, 4}});
     CHECK(in::rotated_180(a) == in::image<int>{{6, 5, 4}, {3, 2, 1}});

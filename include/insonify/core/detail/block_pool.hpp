@@ -53,8 +53,8 @@ class block_pool {
         kept_ += size;
     }
 
-    /// Frees the kept blocks and resets the peak, so that blocks in use are freed, not kept, unless more are allocated
-    /// before.
+    /// Frees the kept blocks and resets the peak: a block in use is then freed, not kept, when it is returned, unless
+    /// more memory comes into use first.
     INSONIFY_TAGGED void release() noexcept {
         const guard lock(busy_);
         while (count_ > 0) free_oldest();

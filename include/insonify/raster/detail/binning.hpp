@@ -1,9 +1,9 @@
 // Sorts triangles into tiles, in submission order.
 //
 // Triangles are binned in chunks, in parallel. Triangles adjacent in a mesh are mostly adjacent on the screen, so a
-// chunk stores runs: consecutive triangles that touch the same tiles. A prefix sum over the run
-// counts of every tile and chunk gives each run its position, and a second parallel pass copies them there: an
-// order-preserving counting sort, whose result does not depend on which thread ran which chunk.
+// chunk stores runs: consecutive triangles that touch the same tiles. A prefix sum over the run counts of every tile
+// and chunk gives each run its position, and a second parallel pass copies them there: an order-preserving counting
+// sort, whose result does not depend on which thread ran which chunk.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>

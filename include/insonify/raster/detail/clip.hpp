@@ -70,7 +70,7 @@ class projection {
         }
     }
 
-    /// Depth is negated where the larger one is kept: in a tile, smaller is always nearer.
+    /// Depth is negated under `depth_compare::greater`: in a tile, smaller is always nearer.
     screen_vertex to_screen(const glm::dvec4& p) const {
         const double inverse_w = 1 / p.w;
         const glm::dvec3 over_w = exact_ ? glm::dvec3(p.x / p.w, p.y / p.w, p.z / p.w)

@@ -95,7 +95,7 @@ inline int128 wide_side(std::int64_t edge_x, std::int64_t edge_y, std::int64_t r
     return int128::product(edge_x, down) - int128::product(edge_y, right);
 }
 
-/// Twice the signed area in squared fixed-point units; positive for triangles that edge_x clockwise on the screen.
+/// Twice the signed area in squared fixed-point units; positive for triangles that run clockwise on the screen.
 inline std::int64_t compact_area(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c) {
     return compact_side(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
 }
@@ -148,10 +148,10 @@ struct edge_function {
     edge_function simplified(int width, int height) const {
         const std::int64_t across = dx * (width - 1), along = dy * (height - 1);
         constexpr std::int64_t none = 0;
-        const std::int64_t lowest = (std::min)(across, none) + (std::min)(along, none);
-        const std::int64_t highest = (std::max)(across, none) + (std::max)(along, none);
-        if (origin >= -lowest) return {0, 0, 0};
-        if (origin < -highest) return {-1, 0, 0};
+        const std::int64_t smallest_change = (std::min)(across, none) + (std::min)(along, none);
+        const std::int64_t largest_change = (std::max)(across, none) + (std::max)(along, none);
+        if (origin >= -smallest_change) return {0, 0, 0};
+        if (origin < -largest_change) return {-1, 0, 0};
         return *this;
     }
 };
@@ -206,7 +206,7 @@ inline float rounded_depth(const screen_vertex& a, const screen_vertex& b, const
     return (sum / wide(weights[0] + weights[1] + weights[2])).to_float();
 }
 
-/// A triangle of any size, ready for the pixels of a rectangle. The vertices edge_x clockwise on the screen; edges are
+/// A triangle of any size, ready for the pixels of a rectangle. The vertices run clockwise on the screen; edges are
 /// named by their ends.
 struct triangle_setup {
     edge_function bc, ca, ab;

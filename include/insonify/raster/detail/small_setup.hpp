@@ -42,7 +42,7 @@ struct drawn_area {
     using ints = lanes<std::int32_t, N>;
     rect_lanes<N> pixels;
     ints half;    ///< half a pixel in sub-pixels
-    ints before;  ///< one sub-pixel less
+    ints before;  ///< half - 1
     int bits;     ///< of sub-pixels
 
     INSONIFY_INLINE drawn_area(const pixel_grid& grid, const rect& r)

@@ -97,9 +97,9 @@ class trawl_furrows {
         }
     }
 
-    /// @param bits    random bits of the strip
-    /// @param distance     half widths from the furrow's middle
-    /// @param along   metres
+    /// @param bits      random bits of the strip
+    /// @param distance  half widths from the furrow's middle
+    /// @param along     metres
     float depth_at(const family& f, std::size_t n, std::uint32_t bits, float distance, double along) const {
         // A strip is divided into lengths with or without a furrow, faded where they meet.
         const lattice_coordinate u(along * f.per_length + static_cast<double>(bits) * 0x1p-32);

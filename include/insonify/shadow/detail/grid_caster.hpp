@@ -23,14 +23,14 @@ class grid_caster {
 
     /// Decides points [first, last), which lie on this caster and face the light, where the horizon's bounds suffice.
     /// @param into  results, from that of point `first` on
-    void decide_self(const points& at, std::size_t first, std::size_t last, decision* into, isa level) const {
+    void decide_own_points(const points& at, std::size_t first, std::size_t last, decision* into, isa level) const {
         insonify::detail::dispatch(kernel{*this, at, first, last, into}, level);
     }
     /// Whether it blocks the light of one of its own points that faces the light.
     /// @param p       in the frame of the light
     /// @param decide  decide(triangle): whether the triangle blocks p's light, in doubles; false for p's own triangle
     template <class Decide>
-    bool blocks_self(const glm::dvec3& p, const Decide& decide) const {
+    bool blocks_own_point(const glm::dvec3& p, const Decide& decide) const {
         const glm::dvec3 at = transform_point(to_mesh_, p);
         const decision result = bounds_.at(at);
         if (result != decision::undecided) return result == decision::dark;

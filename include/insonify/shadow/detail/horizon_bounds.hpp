@@ -165,7 +165,7 @@ class horizon_bounds {
                    isa level, E& ex)
         : grid_(lattice, travel),
           u_(m, box, grid_, ex),
-          lattice_error_(2 * lattice.lattice_error + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
+          lattice_margin_(2 * lattice.lattice_error + 0x1p-30 * (std::max)(grid_.columns, grid_.rows)) {
         const double relief = grid_.u_per_metre * (u_.highest_z - u_.lowest_z);
         const double size =
             grid_.columns + grid_.u_per_metre * (std::max)(numeric::abs(u_.highest_z), numeric::abs(u_.lowest_z));
@@ -196,11 +196,11 @@ class horizon_bounds {
         const reals x = grid_.x_of.x * dx + grid_.x_of.y * dy;
         const reals strip = grid_.y_of.x * dx + grid_.y_of.y * dy - grid_.slope * x - static_cast<double>(first_strip_);
         const bits exists = bits(x >= 0.0) & bits(x <= static_cast<double>(grid_.columns - 1)) &
-                            bits(strip >= lattice_error_) & bits(strip < strips_ - lattice_error_);
+                            bits(strip >= lattice_margin_) & bits(strip < strips_ - lattice_margin_);
         const reals u = x + grid_.u_per_metre * p[2];
         // A point close to a line of the lattice may lie in a cell beyond it.
-        const reals column = exists ? x : reals{}, ahead = exists ? x + lattice_error_ : reals{};
-        const reals low = exists ? strip - lattice_error_ : reals{}, high = exists ? strip + lattice_error_ : reals{};
+        const reals column = exists ? x : reals{}, ahead = exists ? x + lattice_margin_ : reals{};
+        const reals low = exists ? strip - lattice_margin_ : reals{}, high = exists ? strip + lattice_margin_ : reals{};
         const auto bound_at = [&](const reals& at, int k) {
             return bound(static_cast<int>(lane(at, k)), static_cast<int>(lane(low, k)),
                          static_cast<int>(lane(high, k)));
@@ -225,7 +225,7 @@ class horizon_bounds {
     /// Error bound of u, in columns.
     double margin() const { return margin_; }
     /// Bound of the distance of vertices from their lattice points, along the light or across, in steps, with a margin.
-    double lattice_error() const { return lattice_error_; }
+    double lattice_margin() const { return lattice_margin_; }
     bool has_strip(int strip) const { return strip >= 0 && strip < strips_; }
     /// Strip number `strip` of a column holds the points with floor(Y - slope X) = strip + first_strip().
     int first_strip() const { return first_strip_; }
@@ -243,7 +243,7 @@ class horizon_bounds {
   private:
     lit_grid grid_;
     grid_u u_;
-    double lattice_error_, margin_ = 0;
+    double lattice_margin_, margin_ = 0;
     int first_strip_ = 0, strips_ = 0;
     insonify::detail::uninitialized_array<float> bounds_;
 };

@@ -18,12 +18,14 @@ inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
 /// Maps points of a light's plane to where their rays meet the plane z = 0 of a mesh, in grid steps.
-class datum_intercepts {
+class mesh_plane_intercepts {
   public:
-    datum_intercepts(const light_plane& plane, const affine& placement, const lit_grid& grid) {
-        const auto seen = [&](double x, double y) { return glm::dvec2(plane(transform_point(placement, {x, y, 0}))); };
-        origin_ = seen(0, 0);
-        const glm::dvec2 x = seen(1, 0) - origin_, y = seen(0, 1) - origin_;
+    mesh_plane_intercepts(const light_plane& plane, const affine& placement, const lit_grid& grid) {
+        const auto projected = [&](double x, double y) {
+            return glm::dvec2(plane(transform_point(placement, {x, y, 0})));
+        };
+        origin_ = projected(0, 0);
+        const glm::dvec2 x = projected(1, 0) - origin_, y = projected(0, 1) - origin_;
         const double area = x.x * y.y - x.y * y.x;
         x_of_ = glm::dvec2(y.y, -y.x) / area;
         y_of_ = glm::dvec2(-x.y, x.x) / area;
@@ -226,8 +228,8 @@ class horizon_triangles {
             const floats u_slope = along_x + slope * along_y;
             const ints is_above = ints(base + along_x * dx + along_y * dy < eye);
             const ints is_facing = ints(u_slope > min_facing_slope),
-                       is_back_facing = ints(u_slope < 0.0f - min_facing_slope);
-            const ints is_dark = (is_above & is_back_facing) | ((is_above | is_facing) & ints(largest < dark_below));
+                       is_facing_away = ints(u_slope < 0.0f - min_facing_slope);
+            const ints is_dark = (is_above & is_facing_away) | ((is_above | is_facing) & ints(largest < dark_below));
             const ints is_lit = is_above & is_facing & ints(smallest > lit_above);
             result = is_lit ? ints{} + static_cast<std::int32_t>(decision::lit)
                             : ints{} + static_cast<std::int32_t>(decision::undecided);

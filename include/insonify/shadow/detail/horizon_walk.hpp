@@ -96,7 +96,7 @@ class horizon_walk {
           x_(grid_.steps(glm::dvec2(p)).x),
           w_(grid_.steps(glm::dvec2(p)).y - grid_.slope * x_),
           u_(x_ + grid_.u_per_metre * p.z),
-          lattice_error_(horizon.lattice_error()) {}
+          lattice_margin_(horizon.lattice_margin()) {}
 
     /// Whether the surface blocks the ray of a point on it, where it faces the light.
     /// @param decide  decide(triangle): test of a triangle in doubles; false for the triangle of the point
@@ -127,11 +127,11 @@ class horizon_walk {
     /// Whether the point is above the surface by more than the error of u.
     bool lies_above() const {
         const double y = row_at(x_);
-        if (!(x_ >= lattice_error_ && x_ <= grid_.columns - 1 - lattice_error_ && y >= lattice_error_ &&
-              y <= grid_.rows - 1 - lattice_error_))
+        if (!(x_ >= lattice_margin_ && x_ <= grid_.columns - 1 - lattice_margin_ && y >= lattice_margin_ &&
+              y <= grid_.rows - 1 - lattice_margin_))
             return false;
-        for (const double x : {x_ - lattice_error_, x_ + lattice_error_})
-            for (int row = clamped_row(y - lattice_error_); row <= clamped_row(y + lattice_error_); ++row)
+        for (const double x : {x_ - lattice_margin_, x_ + lattice_margin_})
+            for (int row = clamped_row(y - lattice_margin_); row <= clamped_row(y + lattice_margin_); ++row)
                 if (!(largest_u((std::min)(static_cast<int>(x), grid_.columns - 2), row, row) < u_ - horizon_.margin()))
                     return false;
         return true;
@@ -150,12 +150,12 @@ class horizon_walk {
     bool walk(bool is_above, const Decide& decide) const {
         const double u_lower_bound = u_ - horizon_.margin();
         const double highest_z = horizon_.u().highest_z;
-        if (!(x_ + lattice_error_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
-        int column = static_cast<int>((std::min)(x_ + lattice_error_, static_cast<double>(grid_.columns - 2)));
+        if (!(x_ + lattice_margin_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
+        int column = static_cast<int>((std::min)(x_ + lattice_margin_, static_cast<double>(grid_.columns - 2)));
         for (bool is_first = true; column >= 0; --column, is_first = false) {
             // Rows of cells that the ray crosses in this column.
             const double low = row_at(column), high = low + grid_.slope;
-            if (high < -lattice_error_ || column + 1 + grid_.u_per_metre * highest_z < u_lower_bound) return false;
+            if (high < -lattice_margin_ || column + 1 + grid_.u_per_metre * highest_z < u_lower_bound) return false;
             if (!is_first && is_above) {
                 const decision rest = decide_before(column);
                 if (rest != decision::undecided) return rest == decision::dark;
@@ -163,18 +163,18 @@ class horizon_walk {
             if (!is_first && column % macrocell_u::side == macrocell_u::side - 1) {
                 const int before = column - (macrocell_u::side - 1);
                 const float largest_before =
-                    macrocells_.largest_u(before / macrocell_u::side, clamped_row(row_at(before) - lattice_error_),
-                                          clamped_row(high + lattice_error_));
+                    macrocells_.largest_u(before / macrocell_u::side, clamped_row(row_at(before) - lattice_margin_),
+                                          clamped_row(high + lattice_margin_));
                 if (static_cast<double>(largest_before) < u_lower_bound) {
                     column = before;
                     continue;
                 }
             }
-            if (low > grid_.rows - 1 + lattice_error_) continue;
-            const int first_row = clamped_row(low - lattice_error_), last_row = clamped_row(high + lattice_error_);
+            if (low > grid_.rows - 1 + lattice_margin_) continue;
+            const int first_row = clamped_row(low - lattice_margin_), last_row = clamped_row(high + lattice_margin_);
             if (largest_u(column, first_row, last_row) < u_lower_bound) continue;
             const double limit = is_above ? x_ - column : 2;
-            if (low >= lattice_error_ && high <= grid_.rows - 1 - lattice_error_) {
+            if (low >= lattice_margin_ && high <= grid_.rows - 1 - lattice_margin_) {
                 const crossing crossed = cross(column, limit);
                 if (crossed.largest < u_lower_bound) continue;
                 if (is_above && crossed.certain > u_ + horizon_.margin()) return true;
@@ -194,8 +194,8 @@ class horizon_walk {
 
     /// Decides by the bounds of a column, once the ray has been followed down to it.
     decision decide_before(int column) const {
-        const int strip = static_cast<int>(w_ - lattice_error_ - horizon_.first_strip()),
-                  next = static_cast<int>(w_ + lattice_error_ - horizon_.first_strip());
+        const int strip = static_cast<int>(w_ - lattice_margin_ - horizon_.first_strip()),
+                  next = static_cast<int>(w_ + lattice_margin_ - horizon_.first_strip());
         if (!horizon_.has_strip(strip) || !horizon_.has_strip(next)) return decision::undecided;
         const horizon_bound b = horizon_.bound(column, strip, next);
         if (u_ < static_cast<double>(b.dark_below) - horizon_.margin()) return decision::dark;
@@ -214,11 +214,11 @@ class horizon_walk {
         crossing found;
         // An edge is crossed at fraction s of the column and at fraction t of the edge.
         const auto add = [&](double s, double first, double last, double t) {
-            if (s > limit + lattice_error_) return;
+            if (s > limit + lattice_margin_) return;
             const double u = first + t * (last - first);
             found.smallest = (std::min)(found.smallest, u);
             found.largest = (std::max)(found.largest, u);
-            if (s <= limit - lattice_error_) found.certain = (std::max)(found.certain, u);
+            if (s <= limit - lattice_margin_) found.certain = (std::max)(found.certain, u);
         };
         const double start = low - row, end = start + slope, up = (1 - start) / slope;
         const bool stays = end <= 1;
@@ -243,7 +243,7 @@ class horizon_walk {
     const macrocell_u& macrocells_;
     const lit_grid& grid_;
     double x_, w_, u_;
-    double lattice_error_;
+    double lattice_margin_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS

@@ -62,7 +62,7 @@ class light_plane {
 };
 
 /// Whether anything within a box may lie over a plane of a point light.
-inline bool is_visible_on(const light_plane& plane, const bounding_box& box) {
+inline bool may_project_onto(const light_plane& plane, const bounding_box& box) {
     bool outside[4] = {true, true, true, true};
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 p = plane(box.corner(i));
@@ -72,7 +72,7 @@ inline bool is_visible_on(const light_plane& plane, const bounding_box& box) {
 }
 
 /// The part of a point light's plane that a box is over.
-inline std::pair<glm::dvec2, glm::dvec2> visible_extent(const light_plane& plane, const bounding_box& box) {
+inline std::pair<glm::dvec2, glm::dvec2> projected_extent(const light_plane& plane, const bounding_box& box) {
     glm::dvec2 lower(1), upper(-1);
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 p = plane(box.corner(i));

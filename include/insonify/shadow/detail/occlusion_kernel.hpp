@@ -92,8 +92,8 @@ struct occlusion_kernel {
                                   ? !receivers.may_be_on_back_side(number)
                                   : may_skip == skip::facing_self && receivers.are_on_lit_side(number);
         if (all_skip) missed |= facing;
-        const unsigned unblocked = ~movemask<N>(missed) & ((2u << (count - 1)) - 1);
-        if (unblocked == 0) return;
+        const unsigned candidates = ~movemask<N>(missed) & ((2u << (count - 1)) - 1);
+        if (candidates == 0) return;
         const unsigned some_skip = may_skip != skip::nothing ? movemask<N>(facing) : 0;
         // Counter-clockwise on the plane.
         const ints is_clockwise = ints(area < 0.0f);
@@ -130,7 +130,7 @@ struct occlusion_kernel {
             store(cells[axis], first[axis]);
             store(cells[2 + axis], last[axis]);
         });
-        for (unsigned left = unblocked; left != 0; left &= left - 1) {
+        for (unsigned left = candidates; left != 0; left &= left - 1) {
             const auto k = static_cast<std::size_t>(std::countr_zero(left));
             const float one[12] = {values[0][k], values[1][k], values[2][k],  values[3][k],
                                    values[4][k], values[5][k], values[6][k],  values[7][k],
@@ -172,9 +172,9 @@ struct occlusion_kernel {
             const floats error_bound = t[10] + t[11] * (height < 0.0f ? 0.0f - height : height);
             const ints out =
                 ints(to_b < -t[9]) | ints(to_c < -t[9]) | ints(to_a < -3 * t[9]) | ints(above > error_bound);
-            const ints unblocked = ints(out == 0) & ints(blocked == receiver_cells::unblocked) &
-                                   ints(column < static_cast<std::int32_t>(last - i));
-            if (!any(unblocked)) continue;
+            const ints candidates = ints(out == 0) & ints(blocked == receiver_cells::unblocked) &
+                                    ints(column < static_cast<std::int32_t>(last - i));
+            if (!any(candidates)) continue;
             load(mesh, receivers.mesh.data() + i);
             load(triangle, receivers.triangle.data() + i);
             const ints is_own = ints(mesh == static_cast<std::int32_t>(number));
@@ -184,7 +184,7 @@ struct occlusion_kernel {
                 skipped |= ints(lit_mesh == static_cast<std::int32_t>(number));
                 if (skips == skip::facing) skipped |= ~is_own;
             }
-            const ints tested = unblocked & ~skipped;
+            const ints tested = candidates & ~skipped;
             const ints certain = tested & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) &
                                  ints(above < 0.0f - error_bound);
             store(casters + i, ints(certain ? ints{} + static_cast<std::int32_t>(number) : blocked));

@@ -86,7 +86,7 @@ class receiver_cells {
         place.resize(room);
         for (auto* array : {&mesh, &triangle, &lit_mesh, &limit_}) array->resize(room);
         is_limited_ = false;
-        lit_ = back_facing_ = {};
+        lit_ = facing_away_ = {};
         next_.clear();
         next_.append(starts_);
         for (std::size_t i = 0; i < count; ++i) {
@@ -102,7 +102,7 @@ class receiver_cells {
             limit_[at] = batch.casters;
             is_limited_ = is_limited_ || batch.casters != invalid_id;
             lit_mesh[at] = batch.face_light ? r.mesh : invalid_id;
-            (batch.face_light ? lit_ : back_facing_).include(r.mesh);
+            (batch.face_light ? lit_ : facing_away_).include(r.mesh);
         }
         for (std::size_t i = count; i < room; ++i) u[i] = v[i] = height[i] = 0;
         caster.assign(room, unblocked);
@@ -119,9 +119,9 @@ class receiver_cells {
     /// No coordinate u or v is larger.
     float largest() const { return largest_; }
     /// Whether all lie where a caster faces the light.
-    bool are_on_lit_side(std::uint32_t number) const { return back_facing_.empty() && lit_.is_only(number); }
+    bool are_on_lit_side(std::uint32_t number) const { return facing_away_.empty() && lit_.is_only(number); }
     /// Whether some may lie where a caster faces away from the light.
-    bool may_be_on_back_side(std::uint32_t number) const { return back_facing_.contains(number); }
+    bool may_be_on_back_side(std::uint32_t number) const { return facing_away_.contains(number); }
     /// Excludes unblocked receivers from tests against this caster and later ones, by their limit (points::casters).
     void exclude_from(std::uint32_t casters) {
         if (!is_limited_) return;
@@ -155,7 +155,7 @@ class receiver_cells {
     glm::vec2 lower_{0}, scale_{1}, cell_{1};
     float lowest_ = 0, highest_ = 0, largest_ = 0;
     bool is_limited_ = false;
-    mesh_range lit_, back_facing_;  ///< meshes of points that face the light, and of those that face away
+    mesh_range lit_, facing_away_;  ///< meshes of points that face the light, and of those that face away
     dynamic_array<std::uint32_t> starts_, next_, limit_;
     dynamic_array<std::uint16_t> keys_;
 };

@@ -67,7 +67,7 @@ struct tiled_plane {
 class tiled_planes {
   public:
     explicit tiled_planes(const any_light& light) {
-        if (const auto* point = std::get_if<point_light>(&light)) point_light_ = *point;
+        if (const auto* source = std::get_if<point_light>(&light)) point_light_ = *source;
     }
     void add(tiled_plane plane) {
         starts_.push_back(tile_count() + (plane.casters.empty() ? 0 : plane.tiles.count()));

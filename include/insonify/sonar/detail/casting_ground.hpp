@@ -16,11 +16,11 @@ namespace detail::inline INSONIFY_FLAGS {
 /// The rectangle, extended towards the light to all ground that can throw a shadow on its points.
 ///
 /// A ray from the lowest point to a parallel light is above the highest ground after (highest - lowest) cot(elevation)
-/// metres; to a light nearby, after the fraction (highest - lowest) / (light's height - lowest) of the way. For an
+/// metres; to a point light, after the fraction (highest - lowest) / (light's height - lowest) of the way. For an
 /// extended light, the corners of a square around it are tried: the distance is a quotient of linear functions of the
 /// position on the light, so its maximum is in a corner.
 /// @param range   heights of the lowest point and of the highest ground
-/// @param light   in the frame of the rectangle; a near one faces the origin
+/// @param light   in the frame of the rectangle; the disc of a point light faces the origin
 /// @param radius  of the light over its distance
 /// @param longest  upper bound of the extension along each axis, metres
 inline ground_rect casting_ground(const ground_rect& points, const seabed::height_range& range,
@@ -28,9 +28,9 @@ inline ground_rect casting_ground(const ground_rect& points, const seabed::heigh
     ground_rect all = points;
     const double relief = range.highest - range.lowest;
     if (!(relief > 0)) return all;
-    const auto* const point = std::get_if<shadow::point_light>(&light);
-    const auto light_at = [&](const glm::dvec2& disc_offset) {  // a position if it is near, else a direction
-        if (point != nullptr) return shadow::point_of_disc(point->position, disc_offset);
+    const auto* const source = std::get_if<shadow::point_light>(&light);
+    const auto light_at = [&](const glm::dvec2& disc_offset) {  // a position for a point light, else a direction
+        if (source != nullptr) return shadow::point_of_disc(source->position, disc_offset);
         const shadow::light_frame frame(std::get<shadow::directional_light>(light));
         return shadow::toward_disc(frame.to_light(), frame.travel(), disc_offset);
     };
@@ -41,7 +41,7 @@ inline ground_rect casting_ground(const ground_rect& points, const seabed::heigh
             for (int axis = 0; axis < 2; ++axis) {
                 for (const double from : {points.lower[axis], points.upper[axis]}) {
                     double way;
-                    if (point != nullptr) {
+                    if (source != nullptr) {
                         const double share = to.z > range.highest ? relief / (to.z - range.lowest) : 1;
                         way = share * (to[axis] - from);
                     } else {

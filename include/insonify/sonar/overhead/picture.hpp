@@ -73,12 +73,12 @@ class overhead_renderer;
 template <class Shadow, class Labels, class Law, depth_precision Depth>
 auto renderer_of(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
                  executor_ref ex) {
-    using painter = overhead_renderer<Shadow, Labels, Law, Depth>;
+    using renderer = overhead_renderer<Shadow, Labels, Law, Depth>;
     static_assert(
-        requires { sizeof(painter); },
+        requires { sizeof(renderer); },
         "a shadow policy, law or depth other than the built-in ones needs #include "
         "<insonify/sonar/overhead/render.hpp> in the compiled form");
-    return painter(s, rig, options, ex);
+    return renderer(s, rig, options, ex);
 }
 
 template <class Shadow, class Labels, class Law, depth_precision Depth>

@@ -28,8 +28,8 @@ struct overhead {
     glm::ivec2 size{2048, 2048};                           ///< pixels: width (across track), height (along track)
     float grazing = static_cast<float>(numeric::pi / 30);  ///< of the light on level ground, radians
     float light_azimuth = 0;  ///< direction of travel of the light, from image right towards image up, radians
-    /// Distance of the light from the datum below the camera, where grazing and azimuth apply, metres. Rays of an
-    /// infinitely distant light are parallel. Point lights need `shadow::exact` or `penumbra`, and have no falloff.
+    /// Distance of the light from the datum below the camera, where grazing and azimuth apply, metres. If infinite, its
+    /// rays are parallel; if finite, it is a point light, which needs `shadow::exact` or `penumbra` and has no falloff.
     float light_distance = std::numeric_limits<float>::infinity();
     float intensity = 4;  ///< of the light on a surface that faces it
     float sky = 0.05f;    ///< light from the upper hemisphere, without shadows

@@ -112,7 +112,7 @@ inline constexpr float min_grazing_sine = 1e-3f;
 struct flat_echo {
     double range, altitude;  ///< metres; above the datum
     double bin, spacing;     ///< metres
-    bool is_slant_range;     ///< bins count slant range
+    bool is_slant_range;     ///< bins are of slant range, or else of ground range
 };
 
 /// Gain that compensates spreading and absorption. Seabed whose strength does not depend on the angle comes out level,

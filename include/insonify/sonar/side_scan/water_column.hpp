@@ -33,13 +33,13 @@ class water_law {
 
     void prepare(const pixel_area& area) {
         first_ = area.x;
-        mean_noise_.clear();
-        for (int i = 0; i < area.width; ++i) mean_noise_.push_back(noise_at(range(area.x + i)) + w_.volume);
+        mean_background_.clear();
+        for (int i = 0; i < area.width; ++i) mean_background_.push_back(noise_at(range(area.x + i)) + w_.volume);
     }
 
     template <std::same_as<float> Pixel>
     Pixel operator()(Pixel intensity, int x, int y) {
-        Pixel sum = intensity + mean_noise_[static_cast<std::size_t>(x - first_)];
+        Pixel sum = intensity + mean_background_[static_cast<std::size_t>(x - first_)];
         if (w_.surface > 0) sum += surface_at(x, y);
         return sum;
     }
@@ -70,7 +70,7 @@ class water_law {
 
     Water w_;
     philox_key key_;
-    dynamic_array<float> mean_noise_;
+    dynamic_array<float> mean_background_;
     int first_ = 0;
     std::optional<int> row_;  // of the start below; any number, as images have any origin
     double begins_ = 0;

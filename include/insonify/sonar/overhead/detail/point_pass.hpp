@@ -24,7 +24,7 @@ namespace detail::inline INSONIFY_FLAGS {
 struct view_from_object {
     glm::dvec3 eye;                      ///< the camera
     glm::dvec3 corner_ray, right, down;  ///< rays through pixels: of pixel (0, 0), and from pixel to pixel
-    glm::dvec3 light;                    ///< towards a parallel light, or where a near one is
+    glm::dvec3 light;                    ///< towards a parallel light, or the position of a point light
 
     view_from_object(const overhead_geometry& view, const affine& to_rig) {
         const affine back = inverse(to_rig);
@@ -43,7 +43,7 @@ struct point_kernel {
     const view_from_object& from;
     std::span<const undecided_pixel> pixels;  ///< with the ids of triangles within the object
     bool has_point_light;
-    bool includes_back_facing;
+    bool includes_facing_away;
     const rect& box;      ///< the tile's pixels
     std::uint32_t pitch;  ///< pixels from one row of the picture to the next
     point_list& points;
@@ -150,7 +150,7 @@ struct point_kernel {
         b = b * scale;
         c = c * scale;
         const bits inside = bits(b >= border) & bits(c >= border) & bits(b + c <= 1.0 - border);
-        if (any(bits(inside == 0))) hold_inside<N>(b, c);
+        if (any(bits(inside == 0))) clamp_to_triangle<N>(b, c);
 
         // Which side of the facet is seen, and whether the light meets it.
         reals at[3], facet[3], toward[3], seen, along, size, way;
@@ -164,7 +164,7 @@ struct point_kernel {
         dot(size, facet, facet);
         dot(way, toward, toward);
         along = seen > 0.0 ? along : 0.0 - along;
-        const bits faces = bits(along > 0.0) & bits(along * along > (grazed * grazed * size) * way);
+        const bits faces = bits(along > 0.0) & bits(along * along > (min_facing_sine * min_facing_sine * size) * way);
         double places[3][static_cast<unsigned>(N)];
         std::int64_t facing[static_cast<unsigned>(N)];
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
@@ -173,7 +173,7 @@ struct point_kernel {
         });
         store(facing, faces);
         for (std::size_t k = 0; k < count; ++k) {
-            if (facing[k] == 0 && !includes_back_facing) continue;
+            if (facing[k] == 0 && !includes_facing_away) continue;
             const undecided_pixel& shown = pixels[start + k];
             points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], object.caster, shown.id,
                        static_cast<std::uint32_t>(box.y0 + shown.row) * pitch +
@@ -184,7 +184,7 @@ struct point_kernel {
 
     /// Facets at a smaller sine to the light count as facing away: vertices are rounded to 2^-24, and facets
     /// parallel to the light up to that error are dark.
-    static constexpr double grazed = 0x1p-22;
+    static constexpr double min_facing_sine = 0x1p-22;
 
     /// Points keep this barycentric distance from the edges of their triangle: a point on an edge would lie in the
     /// adjacent triangle, too, which then would not block it.
@@ -192,7 +192,7 @@ struct point_kernel {
 
     /// Rounding to sub-pixels may show a triangle beside its edge; one seen from its edge gives NaN or infinity.
     template <int N>
-    INSONIFY_RARE static void hold_inside(lanes<double, N>& b, lanes<double, N>& c) {
+    INSONIFY_RARE static void clamp_to_triangle(lanes<double, N>& b, lanes<double, N>& c) {
         using reals = lanes<double, N>;
         const auto clamp = [](reals& x) INSONIFY_INLINE_LAMBDA {
             x = x > border ? x : reals{} + border;

@@ -41,15 +41,15 @@ struct point_batch {
 /// away from its back.
 class point_list {
   public:
-    std::size_t facing = 0, back_facing = 0;
+    std::size_t facing = 0, facing_away = 0;
 
     /// @param room         the batch to fill
     /// @param first, last  the range of it for this list
     point_list(point_batch& room, std::size_t first, std::size_t last) : room_(&room), first_(first), last_(last) {}
 
-    std::size_t size() const { return facing + back_facing; }
+    std::size_t size() const { return facing + facing_away; }
     shadow::points facing_points() const { return room_->part(first_, facing); }
-    shadow::points back_facing_points() const { return room_->part(last_ - back_facing, back_facing); }
+    shadow::points points_facing_away() const { return room_->part(last_ - facing_away, facing_away); }
     /// The pixel, its light and the caster of a point; facing ones are counted first.
     std::size_t pixel(std::size_t point) const { return room_->pixel[at(point)]; }
     float direct(std::size_t point) const { return room_->direct[at(point)]; }
@@ -57,7 +57,7 @@ class point_list {
 
     INSONIFY_INLINE void add(bool is_facing, double x, double y, double z, std::uint32_t mesh, std::uint32_t triangle,
                              std::uint32_t pixel, float direct) {
-        const std::size_t to = is_facing ? first_ + facing++ : last_ - ++back_facing;
+        const std::size_t to = is_facing ? first_ + facing++ : last_ - ++facing_away;
         room_->x[to] = x;
         room_->y[to] = y;
         room_->z[to] = z;
@@ -69,7 +69,7 @@ class point_list {
 
   private:
     std::size_t at(std::size_t point) const {
-        return point < facing ? first_ + point : last_ - back_facing + (point - facing);
+        return point < facing ? first_ + point : last_ - facing_away + (point - facing);
     }
 
     point_batch* room_;
@@ -102,8 +102,8 @@ void for_each_batch(const point_list& points, const shadow::results& all, std::u
     if (points.facing > 0)
         visit(batch(points.facing_points(), true, targets),
               shadow::results{all.lit.first(points.facing), all.caster.first(points.facing)});
-    if (points.back_facing > 0)
-        visit(batch(points.back_facing_points(), false, targets),
+    if (points.facing_away > 0)
+        visit(batch(points.points_facing_away(), false, targets),
               shadow::results{all.lit.subspan(points.facing), all.caster.subspan(points.facing)});
 }
 

@@ -43,7 +43,7 @@ class ping_tracer {
           step_((std::min)(axis_.bin, cell)),
           profile_(bottom, (std::max)(step_, 0.5 * cell), range_),
           bins_(static_cast<std::size_t>(window.bins)) {
-        for (const sliced_target& t : targets) highest_ = (std::max)(highest_, t.highest());
+        for (const sliced_target& t : targets) highest_target_ = (std::max)(highest_target_, t.highest());
     }
 
     /// @returns one per bin, valid until the next call
@@ -57,13 +57,13 @@ class ping_tracer {
         double lowest = profile_.lowest(), highest = profile_.highest();
         if (skips_foreground(relief_, axis_.first, p)) lowest = relief_.lowest, highest = relief_.highest;
         if (!(lowest <= highest))  // no seabed here: rays for the targets alone
-            lowest = highest = (std::min)(lowest, altitude - range_ / 16);
+            lowest = highest = (std::min)(lowest_target, altitude - range_ / 16);
         // Through a gap, targets lower than the seabed are received in the window from rays closer to nadir.
         if (axis_.first > 0 && lowest_target < lowest && profile_.has_gaps()) lowest = lowest_target;
         // Depths along a pitched fan are longer. Vertical depths are lower bounds, as above_highest and above_all need.
         const double stretch = 1 / p.cosine_pitch();
         const fan_shape shape = fan_shape::around((altitude - lowest) * stretch, altitude - highest,
-                                                  altitude - (std::max)(highest_, highest));
+                                                  altitude - (std::max)(highest_target_, highest));
         const std::array<double, 3> attitude{p.sine_roll(), p.cosine_roll(), p.cosine_pitch()};
         if (!(shape == fan_.shape()) || attitude != attitude_) build_fan(shape, attitude);
         if (!(altitude > lowest) || profile_[0].down <= 0) return bins_.all();  // the sonar is below the seabed
@@ -304,7 +304,7 @@ class ping_tracer {
     range_axis axis_;
     double step_;
     bottom_profile profile_;
-    double highest_ = -1e30;                   ///< of all targets
+    double highest_target_ = -1e30;            ///< of all targets
     std::array<double, 3> attitude_{0, 1, 1};  ///< sine and cosine of the roll, cosine of the pitch
     ping_fan fan_;
     dynamic_array<float> ray_power_;

@@ -17,7 +17,7 @@ namespace detail::inline INSONIFY_FLAGS {
 /// Converts ranges to positions in bins.
 struct range_axis {
     double first, bin;    ///< metres
-    bool is_slant_range;  ///< bins count slant range, or else ground range
+    bool is_slant_range;  ///< bins are of slant range, or else of ground range
 
     /// Position of an echo at a slant range along a ray.
     float position(const ping_fan::ray& ray, double range) const {

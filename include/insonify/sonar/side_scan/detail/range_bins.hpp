@@ -18,7 +18,7 @@ struct range_bins {
     float first_range, range;
     int bins;
     side facing;
-    bool is_slant_range;  ///< bins count slant range, or else ground range
+    bool is_slant_range;  ///< bins are of slant range, or else of ground range
 
     template <across_track Axis>
     INSONIFY_MEMBER explicit range_bins(const side_scan_rig<Axis>& rig)

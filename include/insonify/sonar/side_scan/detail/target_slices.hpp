@@ -107,7 +107,7 @@ class sliced_target {
     affine to_world_;
     glm::dvec3 centre_{0, 0, -1e30};
     double radius_ = 0;       ///< of its bounding sphere, metres
-    double half_height_ = 0;  ///< from the centre to the highest
+    double half_height_ = 0;  ///< of its box, along the world's z
 };
 
 /// The targets of a scene; those with the same mesh share its tree.
