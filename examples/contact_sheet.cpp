@@ -7,15 +7,14 @@
 #include <insonify/io/png.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <map>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <tuple>
 #include <vector>
 
+#include "common/parse.hpp"
 #include "common/pictures.hpp"
 #include "common/scale_bar.hpp"
 #include "common/text.hpp"
@@ -86,8 +85,7 @@ int main(int argc, char** argv) try {
     const std::string folder = argv[1];
     const std::string_view number = argc > 3 ? argv[3] : "6";
     std::size_t per_class = 0;
-    const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), per_class);
-    if (status != std::errc{} || end != number.data() + number.size() || per_class == 0)
+    if (!examples::parse(number, per_class) || per_class == 0)
         throw in::invalid_input("images per class: '" + std::string(number) + "' is not a whole number of at least 1");
     const auto classes = read_manifest(folder);
     if (classes.empty()) throw in::io_error(folder + ": has no images to show");

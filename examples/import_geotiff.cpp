@@ -11,12 +11,12 @@
 #include <insonify/sonar/side_scan/recording.hpp>
 #include <insonify/sonar/speckle.hpp>
 
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string_view>
 
+#include "common/parse.hpp"
 #include "common/usage.hpp"
 #include <gdal_priv.h>
 
@@ -71,15 +71,14 @@ double mean_height(const sb::heightfield& field) {
 
 int main(int argc, char** argv) try {
     examples::check_arguments(argc, argv, 2, 3, "import_geotiff <file> <out.png> [-1 for depths]");
-    float scale = 1;
+    double scale = 1;
     if (argc > 3) {
         const std::string_view text = argv[3];
-        const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), scale);
-        if (status != std::errc{} || end != text.data() + text.size() || !in::numeric::is_finite(scale) || scale == 0)
+        if (!examples::parse(text, scale) || !in::numeric::is_finite(static_cast<float>(scale)) || scale == 0)
             throw in::invalid_input("scale is '" + std::string(text) +
                                     "', expected a number of metres per unit, -1 for depths");
     }
-    sb::heightfield survey = sb::fill_gaps(read_raster(argv[1], scale), 10);
+    sb::heightfield survey = sb::fill_gaps(read_raster(argv[1], static_cast<float>(scale)), 10);
 
     // From the western edge, 15 m above the bottom there, which is moved to z = 0, where default gains take it to lie.
     const glm::dvec2 start = survey.origin;

@@ -1,12 +1,12 @@
 // Strict checks of option values. Errors name the option, the value and the expected form.
 #pragma once
 
-#include <charconv>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <system_error>
 
+#include "parse.hpp"
 #include <CLI/CLI.hpp>
 
 namespace examples {
@@ -17,8 +17,7 @@ inline CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
     return CLI::Validator(
         [low, high](std::string& text) -> std::string {
             std::uint64_t value = 0;
-            const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-            const bool is_whole = status == std::errc{} && end == text.data() + text.size();
+            const bool is_whole = parse(text, value);
             if (is_whole && text.size() > 1 && text[0] == '0')
                 return "'" + text + "' begins with 0, as octal numbers do";
             if (is_whole && value >= low && value <= high) return "";
@@ -32,8 +31,7 @@ inline CLI::Validator number(double low, double high) {
     return CLI::Validator(
         [low, high](std::string& text) -> std::string {
             double value = 0;
-            const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-            if (status == std::errc{} && end == text.data() + text.size() && value >= low && value <= high) return "";
+            if (parse(text, value) && value >= low && value <= high) return "";
             return "'" + text + "' is not a number from " + CLI::detail::to_string(low) + " to " +
                    CLI::detail::to_string(high);
         },

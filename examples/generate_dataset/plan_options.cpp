@@ -1,10 +1,10 @@
 #include "plan_options.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
+#include "../common/parse.hpp"
 #include "plan_limits.hpp"
 #include "values.hpp"
 #include "views.hpp"
@@ -163,8 +163,7 @@ std::vector<double> parse_aspects(const std::string& text) {
     const std::string usage = "'" + text + "' is not first:step:last, or a list of degrees";
     const auto number = [&](std::string_view part) {
         double value = 0;
-        const auto [end, status] = std::from_chars(part.data(), part.data() + part.size(), value);
-        if (status != std::errc{} || end != part.data() + part.size() || !(value >= -360 && value <= 360))
+        if (!examples::parse(part, value) || !(value >= -360 && value <= 360))
             throw std::invalid_argument(usage + " from -360 to 360");
         return value;
     };

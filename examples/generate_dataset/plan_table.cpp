@@ -1,9 +1,9 @@
 #include "plan_table.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <unordered_map>
 
+#include "../common/parse.hpp"
 #include "csv.hpp"
 #include "layout.hpp"
 
@@ -29,11 +29,7 @@ const std::vector<std::string> published_short{"target_id", "class", "length_m",
 /// Its shapes by number.
 const std::vector<std::string> published_shapes{"", "cylinder", "cube", "sphere", "cone"};
 
-template <class Number>
-bool parse(const std::string& text, Number& value) {
-    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return status == std::errc{} && end == text.data() + text.size();
-}
+using examples::parse;
 
 bool is_number(const std::string& text) {
     double value = 0;

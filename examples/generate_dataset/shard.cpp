@@ -1,9 +1,10 @@
 #include "shard.hpp"
 
-#include <charconv>
 #include <cstdlib>
 #include <stdexcept>
 #include <tuple>
+
+#include "../common/parse.hpp"
 
 namespace generator {
 
@@ -13,8 +14,7 @@ constexpr const char* usage = "write K/N with K from 0 to N-1, or N alone in a j
 
 std::uint64_t number(const std::string& text, const std::string& where) {
     std::uint64_t value = 0;
-    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (status != std::errc{} || end != text.data() + text.size() || text.empty())
+    if (!examples::parse(text, value))
         throw std::invalid_argument(where + "'" + text + "' is not a whole number; " + usage);
     return value;
 }

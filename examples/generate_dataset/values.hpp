@@ -1,12 +1,12 @@
 // Strict parsers of option values. Errors name the option, the value and the expected form.
 #pragma once
 
-#include <charconv>
 #include <cmath>
 #include <set>
 #include <string>
 
 #include "../common/option_values.hpp"
+#include "../common/parse.hpp"
 #include "views.hpp"
 
 namespace generator {
@@ -17,8 +17,7 @@ using examples::number, examples::whole_number;
 inline range parse_range(const std::string& name, const std::string& text) {
     const auto number = [&](const std::string& part) {
         double value = 0;
-        const auto [end, status] = std::from_chars(part.data(), part.data() + part.size(), value);
-        if (status != std::errc{} || end != part.data() + part.size() || !std::isfinite(value))
+        if (!examples::parse(part, value) || !std::isfinite(value))
             throw CLI::ValidationError(name, "'" + text + "' is neither a number nor a range low:high");
         return value;
     };
@@ -40,8 +39,7 @@ inline noise_step parse_noise(const std::string& text) {
                                                   "poisson:PHOTONS, rayleigh, seabed");
     if (colon == std::string::npos) return {kind, usual};
     double strength = 0;
-    const char* const end = text.data() + text.size();
-    if (std::from_chars(text.data() + colon + 1, end, strength).ptr != end || !(strength > 0 && strength <= 1e9))
+    if (!examples::parse(std::string_view(text).substr(colon + 1), strength) || !(strength > 0 && strength <= 1e9))
         throw CLI::ValidationError("--noise", "'" + text + "': the strength must be one number above 0, at most 1e9");
     return {kind, strength};
 }
@@ -86,9 +84,8 @@ inline void check_counts(const options& o) {
         const std::size_t equals = text.find('=');
         const std::string name = text.substr(0, equals);
         std::uint64_t count = 0;
-        const char* const end = text.data() + text.size();
         const bool is_number = equals != std::string::npos &&
-                               std::from_chars(text.data() + equals + 1, end, count).ptr == end && count >= 1 &&
+                               examples::parse(std::string_view(text).substr(equals + 1), count) && count >= 1 &&
                                count <= 1'000'000'000;
         if (!is_number || !known.contains(name))
             throw CLI::ValidationError(

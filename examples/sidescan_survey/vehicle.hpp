@@ -4,13 +4,13 @@
 #include <insonify/sonar/side_scan/side_scan.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "../common/input_file.hpp"
+#include "../common/parse.hpp"
 
 namespace survey {
 
@@ -60,9 +60,9 @@ inline std::vector<glm::dvec2> parse_waypoints(std::string_view text, const std:
         };
         const auto coordinate = [&] {
             double value = 0;
-            const auto [rest, status] = std::from_chars(line.data(), line.data() + line.size(), value);
-            if (status != std::errc{} || !(value >= -1e7 && value <= 1e7)) refuse();
-            line.remove_prefix(static_cast<std::size_t>(rest - line.data()));
+            const std::string_view token = line.substr(0, line.find_first_of(", \t\r"));
+            if (!examples::parse(token, value) || !(value >= -1e7 && value <= 1e7)) refuse();
+            line.remove_prefix(token.size());
             skip_blanks();
             return value;
         };
