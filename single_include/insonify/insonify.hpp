@@ -6910,7 +6910,9 @@ struct cell_row_kernel {
         for (std::size_t i = begin; i < end; i += N)
             unroll<indices>([&](int v) INSONIFY_INLINE_LAMBDA {
                 vertices found;
-                load(found, &triangles[2 * i].x + v * N);
+                // GLM's aligned vectors have padding; their cells are compared one by one.
+                load(found, is_packed<glm::uvec3> ? &triangles[2 * i].x + v * N
+                                                  : &triangles[2 * i + static_cast<std::size_t>(v / 3)][v % 3]);
                 wrong |= lanes<std::int32_t, N>(found != expected[v] + static_cast<std::uint32_t>(i));
             });
         return any(wrong);
@@ -6958,7 +6960,8 @@ struct cell_cut {
 
 inline namespace INSONIFY_ONCE {
 
-/// The regular grid of a mesh's vertices; none if they are not on one, or a height is not finite.
+/// The regular grid of a mesh's vertices; none if they are not on one, a height is not finite, or the triangles are not
+/// those of its cells row by row.
 /// @param tolerance  distance from the lattice up to which vertices are accepted, in steps; the `lattice_error` of the
 ///                   result bounds the actual distance
 INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m, double tolerance = 1.0 / 256);
@@ -7150,7 +7153,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Class of a mesh, by which shadow policies choose their casters.
+/// Class of a mesh, from which renderers decide which of its triangles a shadow test may skip (shadow::skip).
 enum class surface_kind {
     open,         ///< not proven to be one of the others
     closed,       ///< triangles traverse each edge equally often in both directions: a ray that starts and ends outside
@@ -11762,10 +11765,10 @@ struct render_options {
     Shadow shadow{};
     Law law{};
     double cell = 0;  ///< metres between the vertices at which the seabed is sampled; 0: two pixels on level ground
-    /// How far towards the light the seabed may cast from, at most, in lengths of the picture. Less is sampled if its
-    /// heights throw no shadow that far; with the light below 1 degree, rock casts shadows from farther.
+    /// How far towards the light the seabed may cast from, at most, in longer sides of the picture. Less is sampled if
+    /// its heights throw no shadow that far; with the light below 1 degree, rock casts shadows from farther.
     float reach = 8;
-    /// See draw_options. Whether a pixel faces the light follows from the triangle that it shows.
+    /// See draw_options. Finer with shadows, as the triangle that a pixel shows decides whether it faces the light.
     int subpixel_bits = std::is_same_v<Shadow, shadow::none> ? 8 : 12;
     int tile = 64;  ///< see draw_options
     isa level = best_isa();
@@ -11866,7 +11869,8 @@ frame<Labels> render(const scene& s, const overhead& rig,
     return detail::render_frame(s, rig, options, executor_ref(ex));
 }
 
-/// The triangles that `render` shows with the same options.
+/// The triangles that `render` shows with the same options. Those of the seabed are numbered in the grid that a picture
+/// without shadows samples.
 /// @throws invalid_input as `render` does
 template <class Shadow = shadow::exact, class Labels = labels, backscatter_law Law = lambert,
           depth_precision Depth = depth_precision::quick, executor_argument E = serial_executor>
@@ -18893,8 +18897,8 @@ class shadow_pass {
     /// @param undecided  number of points of each tile
     template <class Occlusion, executor E>
     void test_together(const Occlusion& occlusion, const dynamic_array<std::size_t>& undecided, E& ex) {
-        // Tiles share a list, and more of them in large pictures, so that batches stay within their number: a list has
-        // up to two.
+        // A list holds the points of several tiles, of more in large pictures: it makes up to two batches, of which
+        // there are at most max_batches.
         const std::size_t tiles_per_list = (std::max)(grain_, tiles_.count() / (shadow::max_batches / 2) + 1);
         dynamic_array<std::size_t> starts{0};  // of the points of each list
         for (std::size_t i = 0; i < tiles_.count(); ++i) {
@@ -19625,7 +19629,8 @@ struct settings {
   private:
     static constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
-    /// A distance across the ray of light that grazes a ball's far side, over that by which it moves the shadow's edge.
+    /// Ratio of a displacement across the ray of light that grazes a ball's far side to the displacement of the
+    /// shadow's edge that it causes.
     INSONIFY_TAGGED static double across_light(const overhead_geometry& view, const glm::dvec3& centre, double radius) {
         if (!view.has_point_light()) return view.light().to_light().z;
         const glm::dvec3 light = view.light_position();
@@ -19745,7 +19750,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         }
         found.shadow.texels_per_pixel = static_cast<float>(texels);
     }
-    found.cell = pixel / chosen;
+    found.cell = (std::max)(pixel / chosen, detail::min_cell(view));
     return found;
 }
 
@@ -20030,7 +20035,7 @@ INSONIFY_ARITHMETIC_END
 // Triangulates polygons: convex ones as a fan, others by ear clipping.
 //
 // Based on: Joseph O'Rourke. Computational Geometry in C, 2nd edition, 1998, section 1.6 (clipping an ear changes
-// whether its two neighbours are ears, and no other: quadratic in all).
+// whether the two adjacent corners are ears, and no other: quadratic in all).
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -25461,7 +25466,8 @@ class bottom_tiles {
     static constexpr std::uint32_t absent = 0xFFFFFFFFu;
     static_assert(1 << shift == cells);
 
-    /// Steps of half a tile along a ping's fan: the rectangles around them contain every tile that it touches.
+    /// Steps of at most half a tile along a ping's fan. The rectangles around them contain every tile that the fan
+    /// touches.
     struct fan_steps {
         double from, width;
         int count;
@@ -25623,7 +25629,8 @@ class bottom_tiles {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/detail/bottom_profile.hpp ----------------------------------------
-// The bottom below a ping: depths and slopes in the plane of its fan, at equal distances across the track.
+// The bottom below a ping, at equal distances across the track: depths in the plane of its fan, and the seabed's slopes
+// across and along the track.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -25642,8 +25649,8 @@ struct bottom_point {
 class bottom_profile {
   public:
     /// @param step   metres between vertices, at least those between the fan's rays on the ground
-    /// @param range  ground range of the last bin's end; the profile extends one step further, so that a ray at the end
-    ///               still meets a facet
+    /// @param range  ground range of the last bin's end; the profile extends up to two steps further, so that a ray at
+    ///               the end still meets a facet
     bottom_profile(const bottom_tiles& tiles, double step, double range)
         : tiles_(tiles), step_(step), end_(static_cast<std::size_t>(numeric::floor_to_int(range / step)) + 3) {}
 
@@ -25655,6 +25662,7 @@ class bottom_profile {
         const glm::vec2 across(p.across()), along(p.along());
         const double altitude = p.position().z;
         const bottom_tiles::depth_range depths = tiles_.depths(p);
+        double last_down = level_of_sonar(depths);  // the last depth that is not NaN
         for (std::size_t i = 0; i < points_.size(); ++i) {
             cut at;
             if (p.is_level()) {
@@ -25662,9 +25670,8 @@ class bottom_profile {
                 at.vertex = tiles_.at(below.x, below.y);
                 at.down = altitude - static_cast<double>(at.vertex.height);
             } else {
-                // Below the sonar, even where a cliff behind it is higher.
-                const double from = i > 0 ? points_[i - 1].down : (std::max)(depths.shallowest, 0.0);
-                at = cut_near(p, x(i), from, depths);
+                at = cut_near(p, x(i), last_down, depths);
+                if (at.down == at.down) last_down = at.down;
             }
             const bottom_vertex& v = at.vertex;
             const auto height = static_cast<double>(v.height);
@@ -25694,7 +25701,13 @@ class bottom_profile {
         bottom_vertex vertex;
     };
 
-    /// The seabed below the fan's point (x, down), and the depth along the fan at which it has this height.
+    /// The depth 0, or the nearest one in a range.
+    static double level_of_sonar(const bottom_tiles::depth_range& depths) {
+        return (std::max)(depths.shallowest, (std::min)(depths.deepest, 0.0));
+    }
+
+    /// The seabed vertically below or above the fan's point (x, down), and the depth in the fan's plane at which its
+    /// height lies.
     cut seabed_at(const ping_frame& p, double x, double down) const {
         const glm::dvec2 at = p.below(x, down);
         const bottom_vertex v = tiles_.at(at.x, at.y);
@@ -25707,7 +25720,7 @@ class bottom_profile {
         const double tolerance = 1e-4 * step_;
         double last_error = std::numeric_limits<double>::infinity();
         while (true) {
-            down = (std::max)(depths.shallowest, down);  // in this order, NaN becomes the shallowest depth
+            down = (std::max)(depths.shallowest, down);  // rounding may leave the range
             const cut found = seabed_at(p, x, down);
             const double error = numeric::abs(found.down - down);
             if (error <= tolerance) return found;
@@ -25716,15 +25729,17 @@ class bottom_profile {
         }
     }
 
-    /// The first cut, from above.
+    /// The first cut, from above: from the sonar's level, so that a cliff behind the sonar is not met, or from the
+    /// shallowest depth where the seabed is higher than the sonar.
     cut first_cut(const ping_frame& p, double x, const bottom_tiles::depth_range& depths) const {
         constexpr int halvings = 20;
-        const double range = depths.deepest - depths.shallowest;
+        double above = level_of_sonar(depths);
+        if (seabed_at(p, x, above).down <= above) above = depths.shallowest;
+        const double first = above, range = depths.deepest - first;
         const std::int64_t steps = numeric::floor_to_int(range * numeric::abs(p.sine_pitch()) / step_) + 1;
-        double above = depths.shallowest;
         bool is_above = true;
         for (std::int64_t i = 0; i <= steps; ++i) {
-            const double at = depths.shallowest + range * static_cast<double>(i) / static_cast<double>(steps);
+            const double at = first + range * static_cast<double>(i) / static_cast<double>(steps);
             const double met = seabed_at(p, x, at).down;
             if (is_above && met <= at) {
                 double below = at;
@@ -26423,7 +26438,8 @@ class target_hits {
     /// The coordinate at which ray k begins.
     double ray_start(std::size_t k) const { return static_cast<double>(fan_->first() + k); }
 
-    /// Moves an end on the other side to the vertical through the sonar: below it the first end, above it the second.
+    /// Clips a segment's end on the other side of the track to the vertical through the sonar: the first end below the
+    /// sonar, the second above it.
     static void cut_at_vertical(cut_segment::end& from, const cut_segment::end& to) {
         if (from.x > 0) return;
         const double f = from.x / (from.x - to.x);
@@ -26582,7 +26598,8 @@ class ping_tracer {
             lowest = highest = (std::min)(lowest_target, altitude - range_ / 16);
         // Through a gap, targets lower than the seabed are received in the window from rays closer to nadir.
         if (axis_.first > 0 && lowest_target < lowest && profile_.has_gaps()) lowest = lowest_target;
-        // Depths along a pitched fan are longer. Vertical depths are lower bounds, as above_highest and above_all need.
+        // Depths along a pitched fan are longer by `stretch`. above_highest and above_all are lower bounds, for which
+        // the vertical depths serve.
         const double stretch = 1 / p.cosine_pitch();
         const fan_shape shape = fan_shape::around((altitude - lowest) * stretch, altitude - highest,
                                                   altitude - (std::max)(highest_target_, highest));
@@ -26615,7 +26632,8 @@ class ping_tracer {
     }
 
   private:
-    static constexpr float max_half_length = 2;  ///< bins that an echo covers on either side of its ray, at any slope
+    static constexpr float max_half_length =
+        2;  ///< bins that an echo of the bottom covers on either side of its ray at most
 
     /// Whether a ping is so high above the bottom that the bottom in front of the window can be skipped.
     static bool skips_foreground(const seabed::height_range& relief, double first_range, const ping_frame& p) {
@@ -26989,7 +27007,8 @@ class recorder {
     void write(std::size_t number, std::span<const echo_bin> bins, std::span<const float> losses) {
         const int row = static_cast<int>(number);
         const auto power = out_.image.row(row);
-        for (std::size_t b = 0; b < bins.size(); ++b) power[b] = bins[b].bottom + bins[b].target;
+        for (std::size_t b = 0; b < bins.size(); ++b)
+            power[b] = (std::min)(bins[b].bottom + bins[b].target, bin_factors::largest);
         for (std::size_t b = 0; b < losses.size(); ++b)
             power[b] = (std::min)(power[b] * losses[b], bin_factors::largest);
         convolve_pulse(power, equation_.pulse_length() / window_.bin());

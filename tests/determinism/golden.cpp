@@ -115,6 +115,25 @@ void geometry() {
     print("primitives", h);
 }
 
+/// The lattice that is found in the triangles of a relief, with GLM's padded vectors, too.
+void lattice() {
+    in::mesh relief;
+    constexpr std::uint32_t columns = 9, rows = 7;
+    for (std::uint32_t y = 0; y < rows; ++y)
+        for (std::uint32_t x = 0; x < columns; ++x)
+            relief.positions.emplace_back(static_cast<float>(x), static_cast<float>(y), static_cast<float>(x * y % 5));
+    for (std::uint32_t y = 0; y + 1 < rows; ++y)
+        for (std::uint32_t i = y * columns; i + 1 < (y + 1) * columns; ++i) {
+            relief.triangles.emplace_back(i, i + 1, i + columns + 1);
+            relief.triangles.emplace_back(i, i + columns + 1, i + columns);
+        }
+    const in::regular_grid found = in::regular_grid_of(relief).value_or(in::regular_grid{});
+    const int size[2] = {found.columns, found.rows};
+    hash h;
+    h.bytes(size, 2);
+    print("lattice of a relief", h);
+}
+
 void filters() {
     in::image<float> ramp(257, 131);
     for (int y = 0; y < ramp.height(); ++y)
@@ -203,6 +222,7 @@ void record(const char* name, const in::seabed::any& seabed) {
 
 int main() {
     geometry();
+    lattice();
     filters();
     triangles();
     render<in::shadow::pcf>("flat, pcf", in::seabed::flat{});

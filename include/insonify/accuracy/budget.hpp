@@ -120,7 +120,8 @@ struct settings {
   private:
     static constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
-    /// A distance across the ray of light that grazes a ball's far side, over that by which it moves the shadow's edge.
+    /// Ratio of a displacement across the ray of light that grazes a ball's far side to the displacement of the
+    /// shadow's edge that it causes.
     INSONIFY_TAGGED static double across_light(const overhead_geometry& view, const glm::dvec3& centre, double radius) {
         if (!view.has_point_light()) return view.light().to_light().z;
         const glm::dvec3 light = view.light_position();
@@ -240,7 +241,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         }
         found.shadow.texels_per_pixel = static_cast<float>(texels);
     }
-    found.cell = pixel / chosen;
+    found.cell = (std::max)(pixel / chosen, detail::min_cell(view));
     return found;
 }
 

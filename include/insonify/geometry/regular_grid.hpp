@@ -68,7 +68,9 @@ struct cell_row_kernel {
         for (std::size_t i = begin; i < end; i += N)
             unroll<indices>([&](int v) INSONIFY_INLINE_LAMBDA {
                 vertices found;
-                load(found, &triangles[2 * i].x + v * N);
+                // GLM's aligned vectors have padding; their cells are compared one by one.
+                load(found, is_packed<glm::uvec3> ? &triangles[2 * i].x + v * N
+                                                  : &triangles[2 * i + static_cast<std::size_t>(v / 3)][v % 3]);
                 wrong |= lanes<std::int32_t, N>(found != expected[v] + static_cast<std::uint32_t>(i));
             });
         return any(wrong);
@@ -116,7 +118,8 @@ struct cell_cut {
 
 inline namespace INSONIFY_ONCE {
 
-/// The regular grid of a mesh's vertices; none if they are not on one, or a height is not finite.
+/// The regular grid of a mesh's vertices; none if they are not on one, a height is not finite, or the triangles are not
+/// those of its cells row by row.
 /// @param tolerance  distance from the lattice up to which vertices are accepted, in steps; the `lattice_error` of the
 ///                   result bounds the actual distance
 INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m, double tolerance = 1.0 / 256);

@@ -18,7 +18,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Class of a mesh, by which shadow policies choose their casters.
+/// Class of a mesh, from which renderers decide which of its triangles a shadow test may skip (shadow::skip).
 enum class surface_kind {
     open,         ///< not proven to be one of the others
     closed,       ///< triangles traverse each edge equally often in both directions: a ray that starts and ends outside

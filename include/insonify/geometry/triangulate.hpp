@@ -1,7 +1,7 @@
 // Triangulates polygons: convex ones as a fan, others by ear clipping.
 //
 // Based on: Joseph O'Rourke. Computational Geometry in C, 2nd edition, 1998, section 1.6 (clipping an ear changes
-// whether its two neighbours are ears, and no other: quadratic in all).
+// whether the two adjacent corners are ears, and no other: quadratic in all).
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>

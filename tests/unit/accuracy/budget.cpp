@@ -280,6 +280,17 @@ TEST_CASE("Settings of any picture size are ones that render takes") {
     }
 }
 
+TEST_CASE("The finest cells are ones that render takes, at any altitude") {
+    in::random_sequence random(12);
+    const acc::budget unreachable{.shadow_edge = 1e-9, .height = 1e-9, .intensity = 1e-9};
+    for (int i = 0; i < 300; ++i) {
+        const in::overhead rig{.altitude = static_cast<float>(random.uniform(1, 20)), .size = {10000, 1}};
+        const auto how = acc::settings_for(unreachable, sb::mud{}, rig, {.chips = 1, .pixels = 1, .finest = 8});
+        CAPTURE(rig.altitude);
+        CHECK(how.cell >= in::detail::min_cell(in::overhead_geometry(rig)));
+    }
+}
+
 TEST_CASE("The ground truth of level ground is lit at the zenith and under point lights") {
     const in::seabed::flat level{.surface = {.rms = 0}};
     const auto error = [&](const in::overhead& rig) {

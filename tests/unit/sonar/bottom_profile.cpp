@@ -158,6 +158,33 @@ TEST_CASE("A pitched fan does not meet a cliff behind the sonar, however high it
     }
 }
 
+TEST_CASE("A pitched fan over a gap does not meet the cliff behind the sonar, nor a wall behind the gap") {
+    const auto heard = [](double cliff, double from, double to) {
+        const auto height = [=](double x, double y) {
+            if (y < -3) return static_cast<float>(cliff);
+            return x >= from && x < to && y < 3 ? no_data : 0.0f;
+        };
+        return hear(over(ground{height, 0, 35}), in::ping{.position = {0, 0, 5}, .pitch = 0.3}, 0, 20, 200);
+    };
+    for (const auto& [from, to] : {std::pair(-1.0, 1.0), std::pair(5.0, 6.0)}) {
+        const auto cliff = heard(35, from, to), level = heard(0, from, to);
+        CHECK(energy(level.image) > 0);
+        CHECK(cliff.image == level.image);
+        CHECK(cliff.labels.shadow == level.labels.shadow);
+    }
+}
+
+TEST_CASE("A pitched ping below the whole seabed, beside one above it, receives nothing") {
+    const in::scene s = over(in::seabed::flat{.surface = {.rms = 0}});
+    for (const double pitch : {0.5236, -0.5236, 1.2})
+        for (const double y : {100.0, 98.6, -100.0, 1e4}) {
+            const auto heard = in::record(s, std::vector{in::ping{}, in::ping{.position = {0, y, -3}, .pitch = pitch}},
+                                          in::side_scan{});
+            CHECK(energy(heard.image, 0) > 0);
+            CHECK(energy(heard.image, 1) == 0);
+        }
+}
+
 TEST_CASE("A pitched fan over ground at the very bounds of its heights is covered by what is sampled") {
     // Rounded to a float, the ground lies below its range. Tiles of 4 m begin at multiples of 4 m.
     const in::scene s = over(ground{[](double, double) { return -1000.7f; }, -1000.7, -1000.7});

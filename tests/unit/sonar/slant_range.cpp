@@ -599,6 +599,13 @@ TEST_CASE("Gains and losses beyond a float's range leave no NaN and no infinity"
     check(sonar_equation{spreading_loss{}, absorption{1070}, in::time_varied_gain{.absorption_per_km = 1070}}, 200);
     check(sonar_equation{spreading_loss{}, absorption{322}, level_gain{}}, 400);
     check(sonar_equation{in::source_level{300}, spreading_loss{}}, 40, 8192);
+
+    in::scene bright;
+    bright.add(in::cube{}, {.position = {20, 0.2, 0.5}}, "cube");
+    bright.targets[0].surface.reflectivity = 3e38f;
+    const in::side_scan sparse{.ping_spacing = 1000, .pings = 1, .range = 40, .bins = 64};
+    const auto picture = in::render(bright, sparse, in::record_options<>{}.with(sonar_equation<>{}));
+    for (const float v : picture.image.pixels()) REQUIRE(std::isfinite(v));
 }
 
 TEST_CASE("Intensities are finite and not negative in random scenes and rigs") {

@@ -25,10 +25,10 @@ struct render_options {
     Shadow shadow{};
     Law law{};
     double cell = 0;  ///< metres between the vertices at which the seabed is sampled; 0: two pixels on level ground
-    /// How far towards the light the seabed may cast from, at most, in lengths of the picture. Less is sampled if its
-    /// heights throw no shadow that far; with the light below 1 degree, rock casts shadows from farther.
+    /// How far towards the light the seabed may cast from, at most, in longer sides of the picture. Less is sampled if
+    /// its heights throw no shadow that far; with the light below 1 degree, rock casts shadows from farther.
     float reach = 8;
-    /// See draw_options. Whether a pixel faces the light follows from the triangle that it shows.
+    /// See draw_options. Finer with shadows, as the triangle that a pixel shows decides whether it faces the light.
     int subpixel_bits = std::is_same_v<Shadow, shadow::none> ? 8 : 12;
     int tile = 64;  ///< see draw_options
     isa level = best_isa();
@@ -129,7 +129,8 @@ frame<Labels> render(const scene& s, const overhead& rig,
     return detail::render_frame(s, rig, options, executor_ref(ex));
 }
 
-/// The triangles that `render` shows with the same options.
+/// The triangles that `render` shows with the same options. Those of the seabed are numbered in the grid that a picture
+/// without shadows samples.
 /// @throws invalid_input as `render` does
 template <class Shadow = shadow::exact, class Labels = labels, backscatter_law Law = lambert,
           depth_precision Depth = depth_precision::quick, executor_argument E = serial_executor>

@@ -131,8 +131,8 @@ class shadow_pass {
     /// @param undecided  number of points of each tile
     template <class Occlusion, executor E>
     void test_together(const Occlusion& occlusion, const dynamic_array<std::size_t>& undecided, E& ex) {
-        // Tiles share a list, and more of them in large pictures, so that batches stay within their number: a list has
-        // up to two.
+        // A list holds the points of several tiles, of more in large pictures: it makes up to two batches, of which
+        // there are at most max_batches.
         const std::size_t tiles_per_list = (std::max)(grain_, tiles_.count() / (shadow::max_batches / 2) + 1);
         dynamic_array<std::size_t> starts{0};  // of the points of each list
         for (std::size_t i = 0; i < tiles_.count(); ++i) {

@@ -1,4 +1,5 @@
-// The bottom below a ping: depths and slopes in the plane of its fan, at equal distances across the track.
+// The bottom below a ping, at equal distances across the track: depths in the plane of its fan, and the seabed's slopes
+// across and along the track.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
@@ -26,8 +27,8 @@ struct bottom_point {
 class bottom_profile {
   public:
     /// @param step   metres between vertices, at least those between the fan's rays on the ground
-    /// @param range  ground range of the last bin's end; the profile extends one step further, so that a ray at the end
-    ///               still meets a facet
+    /// @param range  ground range of the last bin's end; the profile extends up to two steps further, so that a ray at
+    ///               the end still meets a facet
     bottom_profile(const bottom_tiles& tiles, double step, double range)
         : tiles_(tiles), step_(step), end_(static_cast<std::size_t>(numeric::floor_to_int(range / step)) + 3) {}
 
@@ -39,6 +40,7 @@ class bottom_profile {
         const glm::vec2 across(p.across()), along(p.along());
         const double altitude = p.position().z;
         const bottom_tiles::depth_range depths = tiles_.depths(p);
+        double last_down = level_of_sonar(depths);  // the last depth that is not NaN
         for (std::size_t i = 0; i < points_.size(); ++i) {
             cut at;
             if (p.is_level()) {
@@ -46,9 +48,8 @@ class bottom_profile {
                 at.vertex = tiles_.at(below.x, below.y);
                 at.down = altitude - static_cast<double>(at.vertex.height);
             } else {
-                // Below the sonar, even where a cliff behind it is higher.
-                const double from = i > 0 ? points_[i - 1].down : (std::max)(depths.shallowest, 0.0);
-                at = cut_near(p, x(i), from, depths);
+                at = cut_near(p, x(i), last_down, depths);
+                if (at.down == at.down) last_down = at.down;
             }
             const bottom_vertex& v = at.vertex;
             const auto height = static_cast<double>(v.height);
@@ -78,7 +79,13 @@ class bottom_profile {
         bottom_vertex vertex;
     };
 
-    /// The seabed below the fan's point (x, down), and the depth along the fan at which it has this height.
+    /// The depth 0, or the nearest one in a range.
+    static double level_of_sonar(const bottom_tiles::depth_range& depths) {
+        return (std::max)(depths.shallowest, (std::min)(depths.deepest, 0.0));
+    }
+
+    /// The seabed vertically below or above the fan's point (x, down), and the depth in the fan's plane at which its
+    /// height lies.
     cut seabed_at(const ping_frame& p, double x, double down) const {
         const glm::dvec2 at = p.below(x, down);
         const bottom_vertex v = tiles_.at(at.x, at.y);
@@ -91,7 +98,7 @@ class bottom_profile {
         const double tolerance = 1e-4 * step_;
         double last_error = std::numeric_limits<double>::infinity();
         while (true) {
-            down = (std::max)(depths.shallowest, down);  // in this order, NaN becomes the shallowest depth
+            down = (std::max)(depths.shallowest, down);  // rounding may leave the range
             const cut found = seabed_at(p, x, down);
             const double error = numeric::abs(found.down - down);
             if (error <= tolerance) return found;
@@ -100,15 +107,17 @@ class bottom_profile {
         }
     }
 
-    /// The first cut, from above.
+    /// The first cut, from above: from the sonar's level, so that a cliff behind the sonar is not met, or from the
+    /// shallowest depth where the seabed is higher than the sonar.
     cut first_cut(const ping_frame& p, double x, const bottom_tiles::depth_range& depths) const {
         constexpr int halvings = 20;
-        const double range = depths.deepest - depths.shallowest;
+        double above = level_of_sonar(depths);
+        if (seabed_at(p, x, above).down <= above) above = depths.shallowest;
+        const double first = above, range = depths.deepest - first;
         const std::int64_t steps = numeric::floor_to_int(range * numeric::abs(p.sine_pitch()) / step_) + 1;
-        double above = depths.shallowest;
         bool is_above = true;
         for (std::int64_t i = 0; i <= steps; ++i) {
-            const double at = depths.shallowest + range * static_cast<double>(i) / static_cast<double>(steps);
+            const double at = first + range * static_cast<double>(i) / static_cast<double>(steps);
             const double met = seabed_at(p, x, at).down;
             if (is_above && met <= at) {
                 double below = at;

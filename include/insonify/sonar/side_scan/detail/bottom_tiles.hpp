@@ -107,7 +107,8 @@ class bottom_tiles {
     static constexpr std::uint32_t absent = 0xFFFFFFFFu;
     static_assert(1 << shift == cells);
 
-    /// Steps of half a tile along a ping's fan: the rectangles around them contain every tile that it touches.
+    /// Steps of at most half a tile along a ping's fan. The rectangles around them contain every tile that the fan
+    /// touches.
     struct fan_steps {
         double from, width;
         int count;

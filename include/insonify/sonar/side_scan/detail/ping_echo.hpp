@@ -60,7 +60,8 @@ class ping_tracer {
             lowest = highest = (std::min)(lowest_target, altitude - range_ / 16);
         // Through a gap, targets lower than the seabed are received in the window from rays closer to nadir.
         if (axis_.first > 0 && lowest_target < lowest && profile_.has_gaps()) lowest = lowest_target;
-        // Depths along a pitched fan are longer. Vertical depths are lower bounds, as above_highest and above_all need.
+        // Depths along a pitched fan are longer by `stretch`. above_highest and above_all are lower bounds, for which
+        // the vertical depths serve.
         const double stretch = 1 / p.cosine_pitch();
         const fan_shape shape = fan_shape::around((altitude - lowest) * stretch, altitude - highest,
                                                   altitude - (std::max)(highest_target_, highest));
@@ -93,7 +94,8 @@ class ping_tracer {
     }
 
   private:
-    static constexpr float max_half_length = 2;  ///< bins that an echo covers on either side of its ray, at any slope
+    static constexpr float max_half_length =
+        2;  ///< bins that an echo of the bottom covers on either side of its ray at most
 
     /// Whether a ping is so high above the bottom that the bottom in front of the window can be skipped.
     static bool skips_foreground(const seabed::height_range& relief, double first_range, const ping_frame& p) {

@@ -152,7 +152,8 @@ class recorder {
     void write(std::size_t number, std::span<const echo_bin> bins, std::span<const float> losses) {
         const int row = static_cast<int>(number);
         const auto power = out_.image.row(row);
-        for (std::size_t b = 0; b < bins.size(); ++b) power[b] = bins[b].bottom + bins[b].target;
+        for (std::size_t b = 0; b < bins.size(); ++b)
+            power[b] = (std::min)(bins[b].bottom + bins[b].target, bin_factors::largest);
         for (std::size_t b = 0; b < losses.size(); ++b)
             power[b] = (std::min)(power[b] * losses[b], bin_factors::largest);
         convolve_pulse(power, equation_.pulse_length() / window_.bin());

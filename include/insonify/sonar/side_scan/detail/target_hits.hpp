@@ -143,7 +143,8 @@ class target_hits {
     /// The coordinate at which ray k begins.
     double ray_start(std::size_t k) const { return static_cast<double>(fan_->first() + k); }
 
-    /// Moves an end on the other side to the vertical through the sonar: below it the first end, above it the second.
+    /// Clips a segment's end on the other side of the track to the vertical through the sonar: the first end below the
+    /// sonar, the second above it.
     static void cut_at_vertical(cut_segment::end& from, const cut_segment::end& to) {
         if (from.x > 0) return;
         const double f = from.x / (from.x - to.x);
