@@ -1174,6 +1174,10 @@ template <class T>
 constexpr T abs(T value) {
     return value < 0 ? -value : value;
 }
+/// Clamps to [0, 1]; NaN stays NaN.
+constexpr float saturate(float value) {
+    return value < 0 ? 0 : value > 1 ? 1 : value;
+}
 
 /// IEEE 754 square root, correctly rounded everywhere.
 inline double square_root(double value) {
@@ -3205,10 +3209,6 @@ struct noise_run {
     int count;              // 1 to run_length
     std::uint32_t channel;  // 0 to 2
 };
-
-constexpr float saturate(float value) {
-    return value < 0 ? 0.0f : value > 1 ? 1.0f : value;
-}
 
 /// Clips to [0, 1]; NaN stays NaN.
 template <int N>
@@ -8866,6 +8866,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed::detail::inline INSONIFY_FLAGS {
 
+using numeric::saturate;
+
 /// Perlin's quintic: from 0 to 1, first and second derivatives 0 at both ends.
 template <class T>
 INSONIFY_INLINE constexpr void fade(T& into, const T& t) {
@@ -8884,9 +8886,6 @@ INSONIFY_INLINE void catmull_rom(T& into, const T (&p)[4], const T& t) {
 /// Linear interpolation, exact at both ends.
 constexpr float lerp(float a, float b, float t) {
     return a * (1 - t) + b * t;
-}
-[[nodiscard]] constexpr float saturate(float t) {
-    return t < 0 ? 0 : t > 1 ? 1 : t;
 }
 /// The biweight kernel (1 - r^2)^2: 1 in the middle; its value and slope are 0 from a distance of 1 on.
 template <class T>
@@ -19909,12 +19908,12 @@ class poisson_law {
         double mean[run_length], count[run_length];
         pixel_list open;
         for (int i = 0; i < run.count; ++i) {
-            count[i] = mean[i] = static_cast<double>(saturate(from[i]) * photons_);
+            count[i] = mean[i] = static_cast<double>(numeric::saturate(from[i]) * photons_);
             add_if(mean[i] == mean[i], i, open.places, open.count);
         }
         dispatch(rejection_kernel<poisson_counts>{{}, mean, count, &open, run, noise_}, best_isa());
         for (int i = 0; i < run.count; ++i)
-            to[i] = saturate(static_cast<float>(count[i] / static_cast<double>(photons_)));
+            to[i] = numeric::saturate(static_cast<float>(count[i] / static_cast<double>(photons_)));
     }
     void prepare(const pixel_area&) {}
 

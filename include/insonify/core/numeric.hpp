@@ -80,6 +80,10 @@ template <class T>
 constexpr T abs(T value) {
     return value < 0 ? -value : value;
 }
+/// Clamps to [0, 1]; NaN stays NaN.
+constexpr float saturate(float value) {
+    return value < 0 ? 0 : value > 1 ? 1 : value;
+}
 
 /// IEEE 754 square root, correctly rounded everywhere.
 inline double square_root(double value) {

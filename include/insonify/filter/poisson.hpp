@@ -121,12 +121,12 @@ class poisson_law {
         double mean[run_length], count[run_length];
         pixel_list open;
         for (int i = 0; i < run.count; ++i) {
-            count[i] = mean[i] = static_cast<double>(saturate(from[i]) * photons_);
+            count[i] = mean[i] = static_cast<double>(numeric::saturate(from[i]) * photons_);
             add_if(mean[i] == mean[i], i, open.places, open.count);
         }
         dispatch(rejection_kernel<poisson_counts>{{}, mean, count, &open, run, noise_}, best_isa());
         for (int i = 0; i < run.count; ++i)
-            to[i] = saturate(static_cast<float>(count[i] / static_cast<double>(photons_)));
+            to[i] = numeric::saturate(static_cast<float>(count[i] / static_cast<double>(photons_)));
     }
     void prepare(const pixel_area&) {}
 

@@ -165,6 +165,15 @@ TEST_CASE("pow() is accurate to the error of the logarithm, and exact at 0 and 1
     CHECK(std::isnan(numeric::pow(0, quiet_nan)));
 }
 
+TEST_CASE("saturate() clamps to [0, 1] and keeps NaN") {
+    for (const float inside : {0.0f, 0.25f, 1.0f}) CHECK(numeric::saturate(inside) == inside);
+    CHECK(numeric::saturate(-0.5f) == 0);
+    CHECK(numeric::saturate(1.5f) == 1);
+    CHECK(numeric::saturate(-std::numeric_limits<float>::infinity()) == 0);
+    CHECK(numeric::saturate(std::numeric_limits<float>::infinity()) == 1);
+    CHECK(std::isnan(numeric::saturate(std::numeric_limits<float>::quiet_NaN())));
+}
+
 TEST_CASE("normal_quantile() inverts the normal distribution to 4.5e-4") {
     const auto error = [](double p) {
         // The quantile's derivative is one over the density: to first order, which takes the bounds below to 4.6e-4.

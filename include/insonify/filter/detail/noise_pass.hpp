@@ -50,10 +50,6 @@ struct noise_run {
     std::uint32_t channel;  // 0 to 2
 };
 
-constexpr float saturate(float value) {
-    return value < 0 ? 0.0f : value > 1 ? 1.0f : value;
-}
-
 /// Clips to [0, 1]; NaN stays NaN.
 template <int N>
 INSONIFY_INLINE void clip_lanes(lanes<float, N>& value) {

@@ -1,6 +1,7 @@
 // Interpolation and falloff functions of seabed relief, for floats and lanes.
 #pragma once
 
+#include <insonify/core/numeric.hpp>
 #include <insonify/core/simd/lanes.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -8,6 +9,8 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed::detail::inline INSONIFY_FLAGS {
+
+using numeric::saturate;
 
 /// Perlin's quintic: from 0 to 1, first and second derivatives 0 at both ends.
 template <class T>
@@ -27,9 +30,6 @@ INSONIFY_INLINE void catmull_rom(T& into, const T (&p)[4], const T& t) {
 /// Linear interpolation, exact at both ends.
 constexpr float lerp(float a, float b, float t) {
     return a * (1 - t) + b * t;
-}
-[[nodiscard]] constexpr float saturate(float t) {
-    return t < 0 ? 0 : t > 1 ? 1 : t;
 }
 /// The biweight kernel (1 - r^2)^2: 1 in the middle; its value and slope are 0 from a distance of 1 on.
 template <class T>
