@@ -6878,47 +6878,6 @@ struct regular_grid {
 #if INSONIFY_BODIES
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Compares the triangles of a row of cells with those of one cell, moved by a vertex from cell to cell.
-struct cell_row_kernel {
-    static constexpr int indices = 6;  ///< of a cell
-
-    const glm::uvec3* triangles;
-    std::size_t cells;
-    const std::uint32_t (&first)[static_cast<unsigned>(indices)];  ///< vertices of the first cell's triangles
-    bool& differs;                                                 ///< set if a triangle is another
-
-    template <int N>
-    INSONIFY_INLINE void run() const {
-        constexpr int together = is_packed<glm::uvec3> ? N : 1;
-        const std::size_t whole = cells / together * together;
-        if (differ<together>(0, whole) || differ<1>(whole, cells)) differs = true;
-    }
-
-  private:
-    /// N cells are as many vectors as a cell has indices.
-    template <int N>
-    INSONIFY_INLINE bool differ(std::size_t begin, std::size_t end) const {
-        using vertices = lanes<std::uint32_t, N>;
-        vertices expected[static_cast<unsigned>(indices)];
-        unroll<indices>([&](int v) INSONIFY_INLINE_LAMBDA {
-            for (int k = 0; k < N; ++k) {
-                const int at = v * N + k;
-                set_lane(expected[v], k, first[at % indices] + static_cast<std::uint32_t>(at / indices));
-            }
-        });
-        lanes<std::int32_t, N> wrong{};
-        for (std::size_t i = begin; i < end; i += N)
-            unroll<indices>([&](int v) INSONIFY_INLINE_LAMBDA {
-                vertices found;
-                // GLM's aligned vectors have padding; their cells are compared one by one.
-                load(found, is_packed<glm::uvec3> ? &triangles[2 * i].x + v * N
-                                                  : &triangles[2 * i + static_cast<std::size_t>(v / 3)][v % 3]);
-                wrong |= lanes<std::int32_t, N>(found != expected[v] + static_cast<std::uint32_t>(i));
-            });
-        return any(wrong);
-    }
-};
-
 /// The number of columns of a grid and the diagonal of its cells, from the mesh's first two triangles.
 struct cell_cut {
     std::uint32_t columns;
@@ -6998,14 +6957,11 @@ INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m
             if (!(squared <= farthest_accepted && numeric::is_finite(m.positions[vertex].z))) return std::nullopt;
         }
         if (j + 1 == rows) break;
-        constexpr int indices = detail::cell_row_kernel::indices;
-        const auto corner = static_cast<std::uint32_t>(j * columns);
-        std::uint32_t vertices[static_cast<unsigned>(indices)];
-        for (int i = 0; i < indices; ++i) vertices[i] = cell[i / 3][i % 3] + corner;
-        bool differs = false;
-        dispatch(detail::cell_row_kernel{&m.triangles[j * 2 * (columns - 1)], columns - 1, vertices, differs},
-                 best_isa());
-        if (differs) return std::nullopt;
+        for (std::size_t i = 0; i + 1 < columns; ++i) {
+            const glm::uvec3* const found = &m.triangles[2 * (j * (columns - 1) + i)];
+            const auto corner = static_cast<std::uint32_t>(j * columns + i);
+            if (found[0] != cell[0] + corner || found[1] != cell[1] + corner) return std::nullopt;
+        }
     }
     return regular_grid{static_cast<int>(columns),
                         static_cast<int>(rows),
