@@ -25119,6 +25119,7 @@ struct range_bins {
     float ping_spacing;  ///< metres
     float first_range, range;
     int bins;
+    double bin;  ///< metres
     side facing;
     bool is_slant_range;  ///< bins are of slant range, or else of ground range
 
@@ -25129,11 +25130,13 @@ struct range_bins {
           first_range(rig.first_range),
           range(rig.range),
           bins(rig.bins),
+          bin(rig.bin()),
           facing(rig.side),
           is_slant_range(Axis == across_track::slant_range) {}
 
-    INSONIFY_MEMBER double bin() const {
-        return (static_cast<double>(range) - static_cast<double>(first_range)) / bins;
+    /// Slant range of the bottom at a column's range, from an altitude.
+    INSONIFY_MEMBER double slant_range(double r, double above) const {
+        return is_slant_range ? r : range_geometry::slant_range(r, above);
     }
 };
 
@@ -25152,8 +25155,7 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// Reach of the horizontal beam at the largest range, in pings.
 inline int beam_reach(const equation_interface& equation, const range_bins& window) {
-    const double range = static_cast<double>(window.range), altitude = static_cast<double>(window.altitude);
-    const double slant = window.is_slant_range ? range : numeric::square_root(range * range + altitude * altitude);
+    const double slant = window.slant_range(static_cast<double>(window.range), static_cast<double>(window.altitude));
     const double pings = equation.beam_reach(slant) / static_cast<double>(window.ping_spacing);
     require(pings >= 0 && pings < 4096, "pings in the horizontal beam", pings, "0 or more, below 4096");
     return static_cast<int>(pings);
@@ -26010,7 +26012,7 @@ struct range_axis {
     }
     /// Position of the echo of a point, from its distances across and below the sonar.
     double position(double x, double down) const {
-        const double r = is_slant_range ? numeric::square_root(x * x + down * down) : x;
+        const double r = is_slant_range ? range_geometry::slant_range(x, down) : x;
         return (r - first) / bin;
     }
     /// Half the number of bins between the edges of a ray on a surface along (dx, ddown).
@@ -26532,7 +26534,7 @@ class ping_tracer {
           window_(window),
           cell_(cell),
           range_(static_cast<double>(window.range)),
-          axis_{static_cast<double>(window.first_range), window.bin(), window.is_slant_range},
+          axis_{static_cast<double>(window.first_range), window.bin, window.is_slant_range},
           step_((std::min)(axis_.bin, cell)),
           profile_(bottom, (std::max)(step_, 0.5 * cell), range_),
           bins_(static_cast<std::size_t>(window.bins)) {
@@ -26576,7 +26578,7 @@ class ping_tracer {
                         std::span<const sliced_target> targets) {
         const double altitude = p.position().z, first = static_cast<double>(window.first_range);
         if (!skips_foreground(relief, first, p)) return 0;
-        const double deepest = altitude - relief.lowest, begin = first - 4 * window.bin();
+        const double deepest = altitude - relief.lowest, begin = first - 4 * window.bin;
         const double square = window.is_slant_range ? begin * begin - deepest * deepest : begin * begin;
         const double nearest = begin > 0 && square > 0 ? numeric::square_root(square) - 4 * cell : 0;
         // Targets that are nearer than the window's seabed, or all of whose echo comes through a gap.
@@ -26599,11 +26601,8 @@ class ping_tracer {
 
     /// Builds the fan, and the power per metre of range of each ray.
     void build_fan(const fan_shape& shape, const std::array<double, 3>& attitude) {
-        const auto slant = [&](double r) {
-            return axis_.is_slant_range ? r : numeric::square_root(r * r + shape.above_lowest * shape.above_lowest);
-        };
-        farthest_ = slant(range_);
-        fan_ = ping_fan(shape, step_, slant(axis_.first), farthest_);
+        farthest_ = window_.slant_range(range_, shape.above_lowest);
+        fan_ = ping_fan(shape, step_, window_.slant_range(axis_.first, shape.above_lowest), farthest_);
         ray_power_.resize(fan_.size());
         attitude_ = attitude;
         const auto [sine_roll, cosine_roll, cosine_pitch] = attitude;
@@ -26827,7 +26826,7 @@ namespace detail::inline INSONIFY_FLAGS {
 /// The default cell: the longer of a bin and the ping spacing; at most a fiftieth of the altitude, if that is above 0,
 /// so that coarse pictures do not miss relief and targets; at least 1/2048 of the range.
 inline double default_cell(const range_bins& window) {
-    double cell = (std::max)(window.bin(), static_cast<double>(window.ping_spacing));
+    double cell = (std::max)(window.bin, static_cast<double>(window.ping_spacing));
     if (window.altitude > 0) cell = (std::min)(cell, static_cast<double>(window.altitude) / 50);
     return (std::max)(static_cast<double>(window.range) / 2048, cell);
 }
@@ -26913,13 +26912,10 @@ class recorder {
         seabed::detail::require_above(relief, "altitude of the highest ping", highest);
     }
 
-    double range_of(std::size_t bin) const {
-        return static_cast<double>(window_.first_range) + (static_cast<double>(bin) + 0.5) * window_.bin();
-    }
     /// Slant range of a bin from an altitude.
     double slant_of(std::size_t bin, double altitude) const {
-        const double r = range_of(bin);
-        return window_.is_slant_range ? r : numeric::square_root(r * r + altitude * altitude);
+        const double centre = static_cast<double>(window_.first_range) + (static_cast<double>(bin) + 0.5) * window_.bin;
+        return window_.slant_range(centre, altitude);
     }
 
     void trace(executor_ref ex) {
@@ -26966,7 +26962,7 @@ class recorder {
             power[b] = (std::min)(bins[b].bottom + bins[b].target, bin_factors::largest);
         for (std::size_t b = 0; b < losses.size(); ++b)
             power[b] = (std::min)(power[b] * losses[b], bin_factors::largest);
-        convolve_pulse(power, equation_.pulse_length() / window_.bin());
+        convolve_pulse(power, equation_.pulse_length() / window_.bin);
         if constexpr (labelled) {
             const auto instance = out_.labels.instance.row(row), shadow = out_.labels.shadow.row(row);
             const auto seabed = out_.labels.seabed.row(row);
@@ -27041,7 +27037,7 @@ class recorder {
                 const double altitude = track_[i].position.z;
                 const auto gain = gains.at(altitude, window_.bins, "gain() of the sonar equation", [&](std::size_t b) {
                     return equation_.gain(
-                        {slant_of(b, altitude), altitude, window_.bin(), spacing(), window_.is_slant_range});
+                        {slant_of(b, altitude), altitude, window_.bin, spacing(), window_.is_slant_range});
                 });
                 const auto row = out_.image.row(static_cast<int>(i));
                 for (std::size_t b = 0; b < row.size(); ++b)

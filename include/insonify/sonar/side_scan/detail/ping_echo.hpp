@@ -39,7 +39,7 @@ class ping_tracer {
           window_(window),
           cell_(cell),
           range_(static_cast<double>(window.range)),
-          axis_{static_cast<double>(window.first_range), window.bin(), window.is_slant_range},
+          axis_{static_cast<double>(window.first_range), window.bin, window.is_slant_range},
           step_((std::min)(axis_.bin, cell)),
           profile_(bottom, (std::max)(step_, 0.5 * cell), range_),
           bins_(static_cast<std::size_t>(window.bins)) {
@@ -83,7 +83,7 @@ class ping_tracer {
                         std::span<const sliced_target> targets) {
         const double altitude = p.position().z, first = static_cast<double>(window.first_range);
         if (!skips_foreground(relief, first, p)) return 0;
-        const double deepest = altitude - relief.lowest, begin = first - 4 * window.bin();
+        const double deepest = altitude - relief.lowest, begin = first - 4 * window.bin;
         const double square = window.is_slant_range ? begin * begin - deepest * deepest : begin * begin;
         const double nearest = begin > 0 && square > 0 ? numeric::square_root(square) - 4 * cell : 0;
         // Targets that are nearer than the window's seabed, or all of whose echo comes through a gap.
@@ -106,11 +106,8 @@ class ping_tracer {
 
     /// Builds the fan, and the power per metre of range of each ray.
     void build_fan(const fan_shape& shape, const std::array<double, 3>& attitude) {
-        const auto slant = [&](double r) {
-            return axis_.is_slant_range ? r : numeric::square_root(r * r + shape.above_lowest * shape.above_lowest);
-        };
-        farthest_ = slant(range_);
-        fan_ = ping_fan(shape, step_, slant(axis_.first), farthest_);
+        farthest_ = window_.slant_range(range_, shape.above_lowest);
+        fan_ = ping_fan(shape, step_, window_.slant_range(axis_.first, shape.above_lowest), farthest_);
         ray_power_.resize(fan_.size());
         attitude_ = attitude;
         const auto [sine_roll, cosine_roll, cosine_pitch] = attitude;

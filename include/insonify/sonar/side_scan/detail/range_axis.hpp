@@ -3,6 +3,7 @@
 
 #include <insonify/core/numeric.hpp>
 #include <insonify/sonar/side_scan/detail/ping_fan.hpp>
+#include <insonify/sonar/side_scan/range_geometry.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -26,7 +27,7 @@ struct range_axis {
     }
     /// Position of the echo of a point, from its distances across and below the sonar.
     double position(double x, double down) const {
-        const double r = is_slant_range ? numeric::square_root(x * x + down * down) : x;
+        const double r = is_slant_range ? range_geometry::slant_range(x, down) : x;
         return (r - first) / bin;
     }
     /// Half the number of bins between the edges of a ray on a surface along (dx, ddown).

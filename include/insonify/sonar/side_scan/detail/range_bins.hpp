@@ -2,6 +2,7 @@
 #pragma once
 
 #include <insonify/sonar/side_scan/detail/equation_interface.hpp>
+#include <insonify/sonar/side_scan/range_geometry.hpp>
 #include <insonify/sonar/side_scan/side_scan.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -17,6 +18,7 @@ struct range_bins {
     float ping_spacing;  ///< metres
     float first_range, range;
     int bins;
+    double bin;  ///< metres
     side facing;
     bool is_slant_range;  ///< bins are of slant range, or else of ground range
 
@@ -27,11 +29,13 @@ struct range_bins {
           first_range(rig.first_range),
           range(rig.range),
           bins(rig.bins),
+          bin(rig.bin()),
           facing(rig.side),
           is_slant_range(Axis == across_track::slant_range) {}
 
-    INSONIFY_MEMBER double bin() const {
-        return (static_cast<double>(range) - static_cast<double>(first_range)) / bins;
+    /// Slant range of the bottom at a column's range, from an altitude.
+    INSONIFY_MEMBER double slant_range(double r, double above) const {
+        return is_slant_range ? r : range_geometry::slant_range(r, above);
     }
 };
 
@@ -50,8 +54,7 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// Reach of the horizontal beam at the largest range, in pings.
 inline int beam_reach(const equation_interface& equation, const range_bins& window) {
-    const double range = static_cast<double>(window.range), altitude = static_cast<double>(window.altitude);
-    const double slant = window.is_slant_range ? range : numeric::square_root(range * range + altitude * altitude);
+    const double slant = window.slant_range(static_cast<double>(window.range), static_cast<double>(window.altitude));
     const double pings = equation.beam_reach(slant) / static_cast<double>(window.ping_spacing);
     require(pings >= 0 && pings < 4096, "pings in the horizontal beam", pings, "0 or more, below 4096");
     return static_cast<int>(pings);

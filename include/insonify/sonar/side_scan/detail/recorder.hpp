@@ -17,7 +17,7 @@ namespace detail::inline INSONIFY_FLAGS {
 /// The default cell: the longer of a bin and the ping spacing; at most a fiftieth of the altitude, if that is above 0,
 /// so that coarse pictures do not miss relief and targets; at least 1/2048 of the range.
 inline double default_cell(const range_bins& window) {
-    double cell = (std::max)(window.bin(), static_cast<double>(window.ping_spacing));
+    double cell = (std::max)(window.bin, static_cast<double>(window.ping_spacing));
     if (window.altitude > 0) cell = (std::min)(cell, static_cast<double>(window.altitude) / 50);
     return (std::max)(static_cast<double>(window.range) / 2048, cell);
 }
@@ -103,13 +103,10 @@ class recorder {
         seabed::detail::require_above(relief, "altitude of the highest ping", highest);
     }
 
-    double range_of(std::size_t bin) const {
-        return static_cast<double>(window_.first_range) + (static_cast<double>(bin) + 0.5) * window_.bin();
-    }
     /// Slant range of a bin from an altitude.
     double slant_of(std::size_t bin, double altitude) const {
-        const double r = range_of(bin);
-        return window_.is_slant_range ? r : numeric::square_root(r * r + altitude * altitude);
+        const double centre = static_cast<double>(window_.first_range) + (static_cast<double>(bin) + 0.5) * window_.bin;
+        return window_.slant_range(centre, altitude);
     }
 
     void trace(executor_ref ex) {
@@ -156,7 +153,7 @@ class recorder {
             power[b] = (std::min)(bins[b].bottom + bins[b].target, bin_factors::largest);
         for (std::size_t b = 0; b < losses.size(); ++b)
             power[b] = (std::min)(power[b] * losses[b], bin_factors::largest);
-        convolve_pulse(power, equation_.pulse_length() / window_.bin());
+        convolve_pulse(power, equation_.pulse_length() / window_.bin);
         if constexpr (labelled) {
             const auto instance = out_.labels.instance.row(row), shadow = out_.labels.shadow.row(row);
             const auto seabed = out_.labels.seabed.row(row);
@@ -231,7 +228,7 @@ class recorder {
                 const double altitude = track_[i].position.z;
                 const auto gain = gains.at(altitude, window_.bins, "gain() of the sonar equation", [&](std::size_t b) {
                     return equation_.gain(
-                        {slant_of(b, altitude), altitude, window_.bin(), spacing(), window_.is_slant_range});
+                        {slant_of(b, altitude), altitude, window_.bin, spacing(), window_.is_slant_range});
                 });
                 const auto row = out_.image.row(static_cast<int>(i));
                 for (std::size_t b = 0; b < row.size(); ++b)
