@@ -1373,6 +1373,7 @@ INSONIFY_ARITHMETIC_END
 // scalings are GLM's.
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -1394,11 +1395,27 @@ template <class T>
 INSONIFY_INLINE T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
+/// Dot product in the plane.
+template <class T>
+INSONIFY_INLINE T dot(const glm::vec<2, T>& a, const glm::vec<2, T>& b) {
+    return a.x * b.x + a.y * b.y;
+}
+
+/// Euclidean length.
+template <int L, class T>
+INSONIFY_INLINE T length(const glm::vec<L, T>& v) {
+    return square_root(dot(v, v));
+}
 
 /// Cross product.
 template <class T>
 INSONIFY_INLINE glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
     return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
+}
+/// Cross product in the plane: the signed area of the parallelogram, positive if `b` is counter-clockwise from `a`.
+template <class T>
+INSONIFY_INLINE T cross(const glm::vec<2, T>& a, const glm::vec<2, T>& b) {
+    return a.x * b.y - a.y * b.x;
 }
 
 /// Axis of the component of largest magnitude, the first of equal ones.
@@ -1756,6 +1773,15 @@ INSONIFY_INLINE void unroll(const Body& body) {
         (body(I), ...);
     }
     (std::make_integer_sequence<int, Count>{});
+}
+
+/// The least and the largest of three values, lane by lane.
+template <class Lanes>
+INSONIFY_INLINE void range_of(Lanes& low, Lanes& high, const Lanes& a, const Lanes& b, const Lanes& c) {
+    low = a < b ? a : b;
+    low = low < c ? low : c;
+    high = a > b ? a : b;
+    high = high > c ? high : c;
 }
 
 /// 0, 1, ... N - 1.
@@ -3859,7 +3885,7 @@ struct echo_factor {
 
 /// How intensities are drawn; `by_looks` is exponential for one look, else gamma. The choice never depends on whether a
 /// parameter is a map, so that a map of equal values gives the same noise as that value.
-enum class echo_draw { exponential, gamma, by_looks, rice };
+enum class echo_draw { gamma, by_looks, rice };
 
 /// Statistics of an intensity: the three numbers of a speckle_law, by pixel.
 struct echo_statistics {
@@ -3938,14 +3964,10 @@ class echo_law {
             average_looks(buffer, fields_.is_correlated() ? static_cast<int>(statistics_.looks.value()) : 1, run);
             return buffer;
         }
-        if constexpr (Draw == echo_draw::exponential || Draw == echo_draw::by_looks) {
-            if (Draw == echo_draw::exponential || statistics_.looks.value() == 1)
-                return white_draws<exponential_draws>(buffer, noise_, 0, run);
-        }
-        if constexpr (Draw == echo_draw::gamma || Draw == echo_draw::by_looks) {
-            std::fill_n(buffer, run.count, 1.0f);
-            gamma(buffer, statistics_.looks, noise_, run);
-        }
+        if (Draw == echo_draw::by_looks && statistics_.looks.value() == 1)
+            return white_draws<exponential_draws>(buffer, noise_, 0, run);
+        std::fill_n(buffer, run.count, 1.0f);
+        gamma(buffer, statistics_.looks, noise_, run);
         return buffer;
     }
 
@@ -4081,8 +4103,8 @@ struct rayleigh {
     INSONIFY_MEMBER auto pass() const {
         detail::require_echo("rayleigh.of", of);
         detail::require_correlation("rayleigh.correlation", correlation);
-        return detail::echo_pass<detail::echo_draw::exponential>(detail::noise_stream::rayleigh, seed, frame,
-                                                                 {"rayleigh"}, of, correlation);
+        return detail::echo_pass<detail::echo_draw::by_looks>(detail::noise_stream::rayleigh, seed, frame, {"rayleigh"},
+                                                              of, correlation);
     }
 };
 
@@ -5258,15 +5280,6 @@ struct run_context {
     Sink sink;
 };
 
-template <class T>
-image_view<const T> read_only(const image<T>& source) {
-    return source;
-}
-template <class T>
-image_view<const T> read_only(image_view<T> source) {
-    return source;
-}
-
 /// Runs a pass and returns its image: in place where the source is an rvalue of the same pixel type.
 template <class Source, class Pass, executor E>
 auto materialize(Source&& source, const Pass& pass, E& ex, pixel_origin origin) {
@@ -5276,11 +5289,11 @@ auto materialize(Source&& source, const Pass& pass, E& ex, pixel_origin origin) 
     if constexpr (std::is_same_v<Pass, identity_pass>) {
         return image<from>(std::forward<Source>(source));
     } else if constexpr (owned && std::is_same_v<from, to>) {
-        run_pass(read_only(source), source.view(), pass, ex, origin);
+        run_pass<from>(source, source.view(), pass, ex, origin);
         return std::move(source);
     } else {
         image<to> out(source.width(), source.height(), uninitialized{}, memory_of(ex));
-        run_pass(read_only(source), out.view(), pass, ex, origin);
+        run_pass<from>(source, out.view(), pass, ex, origin);
         return out;
     }
 }
@@ -5295,7 +5308,7 @@ void run_stages(const Source& source, const Pass& pass, const run_context<E, int
     const image_view<To> target = run.sink.target;
     require_equal("to.width()", target.width(), source.width(), "that of the result");
     require_equal("to.height()", target.height(), source.height(), "that of the result");
-    run_pass(read_only(source), target, pass, run.ex, run.origin);
+    run_pass<typename Source::value_type>(source, target, pass, run.ex, run.origin);
 }
 template <class Source, class Pass, class E, class Sink, class F, class... Rest>
 auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& run, const F& stage,
@@ -5313,10 +5326,10 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
                               identity_pass{}, run, rest...);
         }
     } else if constexpr (is_identity) {
-        return run_stages(std::forward<Source>(source), make_pass(stage, read_only(source), run.ex), run, rest...);
+        return run_stages(std::forward<Source>(source), make_pass<pixel>(stage, source, run.ex), run, rest...);
     } else if constexpr (measured_filter<F, pixel>) {
         image<pixel> seen = materialize(std::forward<Source>(source), pass, run.ex, run.origin);
-        const auto next = make_pass(stage, read_only(seen), run.ex);
+        const auto next = make_pass<pixel>(stage, seen, run.ex);
         return run_stages(std::move(seen), next, run, rest...);
     } else {
         auto next = make_pass(stage, image_view<const pixel>{}, run.ex);
@@ -5949,7 +5962,6 @@ INSONIFY_ARITHMETIC_END
 // z / w = z_near / distance along the camera's axis, so that precision does not fall off far away (draw with
 // depth_compare::greater).
 
-#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -5977,13 +5989,12 @@ inline affine look_at(const camera& c) {
     detail::require_finite("camera.target", c.target);
     detail::require_finite("camera.up", c.up);
     const glm::dvec3 line = c.eye - c.target;
-    const double distance = numeric::square_root(numeric::dot(line, line)),
-                 length = numeric::square_root(numeric::dot(c.up, c.up));
+    const double distance = numeric::length(line), length = numeric::length(c.up);
     detail::require(distance > 0 && numeric::is_finite(distance), "distance from camera.eye to camera.target", distance,
                     "above 0, finite");
     detail::require(length > 0 && numeric::is_finite(length), "length of camera.up", length, "above 0, finite");
     const glm::dvec3 back = line / distance, across = numeric::cross(c.up, back);
-    const double width = numeric::square_root(numeric::dot(across, across)), sine = width / length;
+    const double width = numeric::length(across), sine = width / length;
     // Rounding leaves a sine of up to 1e-15 between parallel vectors.
     detail::require(sine > 1e-12, "sine of the angle from camera.up to the line of sight", sine, "above 1e-12");
     const glm::dvec3 right = across / width, up = numeric::cross(back, right);
@@ -6086,15 +6097,6 @@ inline void append_arc(dynamic_array<profile_point>& profile, double radius, dou
     }
 }
 
-/// Bounds the segments of a surface of revolution.
-inline void require_revolved_segments(const char* name, int segments) {
-    require(segments >= 3 && segments <= (1 << 20), name, segments, "3 to 2^20");
-}
-
-/// Bounds the segments of a grid with half as many rings, so that the mesh has less than 2^26 triangles.
-inline void require_round_segments(const char* name, int segments) {
-    require(segments >= 3 && segments <= 8192, name, segments, "3 to 8192");
-}
 #endif
 
 /// Distance from the centre of a unit ball of `segments` by `rings` to the nearest of its faces, which is at the
@@ -6142,7 +6144,7 @@ INSONIFY_FUNCTION mesh revolve(std::span<const profile_point> profile, int segme
 
 #if INSONIFY_BODIES
 INSONIFY_FUNCTION mesh revolve(std::span<const profile_point> profile, int segments, axis around) {
-    detail::require_revolved_segments("segments", segments);
+    detail::require_range("segments", segments, 3, 1 << 20, "3 to 2^20");
     const auto count = static_cast<std::uint32_t>(segments);
     detail::require(profile.size() <= (std::size_t{1} << 28) / count, "profile.size()", profile.size(),
                     "at most 2^28 vertices in all");
@@ -6234,7 +6236,7 @@ INSONIFY_FUNCTION mesh to_mesh(const cone& shape) {
     detail::require_positive("cone.radius", shape.radius);
     detail::require_positive("cone.height", shape.height);
     detail::require_not_negative("cone.top_radius", shape.top_radius);
-    detail::require_revolved_segments("cone.segments", shape.segments);
+    detail::require_range("cone.segments", shape.segments, 3, 1 << 20, "3 to 2^20");
     const auto radius = static_cast<double>(shape.radius);
     const auto height = static_cast<double>(shape.height);
     const auto top = static_cast<double>(shape.top_radius);
@@ -6360,7 +6362,7 @@ INSONIFY_FUNCTION mesh to_mesh(const capsule& shape);
 INSONIFY_FUNCTION mesh to_mesh(const cylinder& shape) {
     detail::require_positive("cylinder.radius", shape.radius);
     detail::require_positive("cylinder.length", shape.length);
-    detail::require_revolved_segments("cylinder.segments", shape.segments);
+    detail::require_range("cylinder.segments", shape.segments, 3, 1 << 20, "3 to 2^20");
     const auto radius = static_cast<double>(shape.radius);
     const double half = 0.5 * static_cast<double>(shape.length);
     const std::array<profile_point, 6> profile = {{{0, -half, 0, -1},
@@ -6376,7 +6378,7 @@ INSONIFY_FUNCTION mesh to_mesh(const capsule& shape) {
     detail::require_positive("capsule.radius", shape.radius);
     detail::require(numeric::is_finite(shape.length) && shape.length >= 2 * shape.radius, "capsule.length",
                     shape.length, "finite and at least twice the radius");
-    detail::require_round_segments("capsule.segments", shape.segments);
+    detail::require_range("capsule.segments", shape.segments, 3, 8192, "3 to 8192");
     const auto radius = static_cast<double>(shape.radius);
     const double straight = 0.5 * static_cast<double>(shape.length) - radius;
     const int steps = (shape.segments + 3) / 4;
@@ -6642,8 +6644,7 @@ class triangle_lattice {
         double longest = 0;
         for (int i = 0; i < 3; ++i) {
             const glm::dvec2 edge = corner[(i + 2) % 3] - corner[(i + 1) % 3];
-            const double square = edge.x * edge.x + edge.y * edge.y;
-            if (square > longest) longest = square, right_angle = i;
+            if (const double square = numeric::dot(edge, edge); square > longest) longest = square, right_angle = i;
         }
         triangle_lattice l;
         l.origin_ = corner[right_angle];
@@ -6652,7 +6653,7 @@ class triangle_lattice {
         if (numeric::abs(l.up_.x) > numeric::abs(l.right_.x)) std::swap(l.right_, l.up_);
         if (l.right_.x < 0) l.right_ = -l.right_;
         if (l.up_.y < 0) l.up_ = -l.up_;
-        const double area = l.right_.x * l.up_.y - l.right_.y * l.up_.x;
+        const double area = numeric::cross(l.right_, l.up_);
         if (!(area > 0)) return std::nullopt;
         l.x_of_ = glm::dvec2(l.up_.y, -l.up_.x) / area;
         l.y_of_ = glm::dvec2(-l.right_.y, l.right_.x) / area;
@@ -6728,7 +6729,7 @@ inline std::optional<bool> rising_diagonals(const mesh& m, const lattice_vertice
         const glm::ivec2 a = v.at[t.x], b = v.at[t.y], c = v.at[t.z];
         const glm::ivec2 corner{(std::min)((std::min)(a.x, b.x), c.x), (std::min)((std::min)(a.y, b.y), c.y)};
         const glm::ivec2 ab = b - a, ac = c - a;
-        if (ab.x * ac.y - ab.y * ac.x != 1) return std::nullopt;
+        if (numeric::cross(ab, ac) != 1) return std::nullopt;
         // With the corners of a cell numbered x + 2 y, a triangle lacks 1 or 2 if its diagonal is rising, else 0 or 3.
         int missing_corner = 6;
         for (const glm::ivec2& p : {a, b, c}) {
@@ -6809,7 +6810,7 @@ inline std::vector<glm::vec3> smooth_normals(const mesh& m) {
         const glm::dvec3 corners[3] = {glm::dvec3(m.positions[t.x]), glm::dvec3(m.positions[t.y]),
                                        glm::dvec3(m.positions[t.z])};
         const glm::dvec3 area = numeric::cross(corners[1] - corners[0], corners[2] - corners[0]);
-        const double length = numeric::square_root(numeric::dot(area, area));
+        const double length = numeric::length(area);
         if (!(length > 0 && numeric::is_finite(length))) continue;
         for (int i = 0; i < 3; ++i) {
             const glm::dvec3 a = corners[(i + 1) % 3] - corners[i];
@@ -6820,7 +6821,7 @@ inline std::vector<glm::vec3> smooth_normals(const mesh& m) {
 
     std::vector<glm::vec3> normals(sums.size());
     for (std::size_t i = 0; i < sums.size(); ++i) {
-        const double length = numeric::square_root(numeric::dot(sums[i], sums[i]));
+        const double length = numeric::length(sums[i]);
         normals[i] = length > 0 ? glm::vec3(sums[i] / length) : glm::vec3(0, 0, 1);
     }
     return normals;
@@ -6939,19 +6940,20 @@ INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m
     const auto place = [&](std::size_t i) { return glm::dvec2(m.positions[i].x, m.positions[i].y); };
     const glm::dvec2 origin = place(0), right = (place(columns - 1) - origin) / static_cast<double>(columns - 1),
                      up = (place((rows - 1) * columns) - origin) / static_cast<double>(rows - 1);
-    const double area = right.x * up.y - right.y * up.x;
+    const double area = numeric::cross(right, up);
     if (!(cut->is_mirrored ? area < 0 : area > 0)) return std::nullopt;  // written so that NaN doesn't pass
-    const auto square = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
     // Metres between the lines of the lattice. Of an oblique one this is less than the length of a step.
-    const double step = numeric::abs(area) / numeric::square_root((std::max)(square(right), square(up)));
-    const double farthest_accepted = square({step * tolerance, 0});
+    const double step =
+        numeric::abs(area) / numeric::square_root((std::max)(numeric::dot(right, right), numeric::dot(up, up)));
+    const double farthest_accepted = step * tolerance * (step * tolerance);
 
     double farthest = 0;  // squared
     for (std::size_t j = 0; j < rows; ++j) {
         const glm::dvec2 start = origin + static_cast<double>(j) * up;
         for (std::size_t i = 0; i < columns; ++i) {
             const std::size_t vertex = j * columns + i;
-            const double squared = square(place(vertex) - (start + static_cast<double>(i) * right));
+            const glm::dvec2 off = place(vertex) - (start + static_cast<double>(i) * right);
+            const double squared = numeric::dot(off, off);
             farthest = (std::max)(farthest, squared);
             // Written so that NaN doesn't pass.
             if (!(squared <= farthest_accepted && numeric::is_finite(m.positions[vertex].z))) return std::nullopt;
@@ -7183,8 +7185,8 @@ inline bool is_convex_loop(const mesh& m, const dynamic_array<std::pair<std::uin
     for (std::uint32_t at = start; count == 0 || at != start; at = after[at], ++count) {
         if (count > edges.size() || after[at] == 0xFFFFFFFFu || after[after[at]] == 0xFFFFFFFFu) return false;
         const glm::dvec2 now = way(at), then = way(after[at]);
-        const double turn = now.x * then.y - now.y * then.x;
-        if (turn < 0 || (turn == 0 && now.x * then.x + now.y * then.y <= 0)) return false;
+        const double turn = numeric::cross(now, then);
+        if (turn < 0 || (turn == 0 && numeric::dot(now, then) <= 0)) return false;
         turns += now.y < 0 && then.y >= 0;
     }
     return count == edges.size() && turns == 1;
@@ -7424,7 +7426,7 @@ INSONIFY_FUNCTION mesh to_mesh(const hemisphere& shape);
 #if INSONIFY_BODIES
 INSONIFY_FUNCTION mesh to_mesh(const sphere& shape) {
     detail::require_positive("sphere.radius", shape.radius);
-    detail::require_round_segments("sphere.segments", shape.segments);
+    detail::require_range("sphere.segments", shape.segments, 3, 8192, "3 to 8192");
     detail::dynamic_array<profile_point> profile;
     detail::append_arc(profile, static_cast<double>(shape.radius), 0.0, 0.0, 0.5, (shape.segments + 1) / 2);
     return detail::stretched_round(profile, "sphere.aspect", shape.aspect, shape.segments);
@@ -7432,7 +7434,7 @@ INSONIFY_FUNCTION mesh to_mesh(const sphere& shape) {
 
 INSONIFY_FUNCTION mesh to_mesh(const hemisphere& shape) {
     detail::require_positive("hemisphere.radius", shape.radius);
-    detail::require_round_segments("hemisphere.segments", shape.segments);
+    detail::require_range("hemisphere.segments", shape.segments, 3, 8192, "3 to 8192");
     const auto radius = static_cast<double>(shape.radius);
     detail::dynamic_array<profile_point> profile = {{0, 0, 0, -1}, {radius, 0, 0, -1}};
     detail::append_arc(profile, radius, 0.0, 0.25, 0.5, (shape.segments + 3) / 4);
@@ -8597,14 +8599,11 @@ namespace seabed {
 struct none {
     static constexpr type kind = type::sand;
 
-    /// Makes this a model; `any` never evaluates it.
-    struct sampler {
-        void row(const scanline&, std::span<float> heights) const {
-            std::fill(heights.begin(), heights.end(), std::numeric_limits<float>::quiet_NaN());
-        }
-        height_range range() const { return {}; }
-    };
-    INSONIFY_MEMBER sampler prepare() const { return {}; }
+    // These make it a model; `any` never evaluates it.
+    INSONIFY_MEMBER void row(const scanline&, std::span<float> heights) const {
+        std::fill(heights.begin(), heights.end(), std::numeric_limits<float>::quiet_NaN());
+    }
+    INSONIFY_MEMBER height_range range() const { return {}; }
 };
 
 }  // namespace seabed
@@ -8839,6 +8838,17 @@ INSONIFY_INLINE void catmull_rom(T& into, const T (&p)[4], const T& t) {
             d = 0.5f * (p[3] - p[0]) + 1.5f * (p[1] - p[2]);
     into = p[1] + t * (b + t * (c + t * d));
 }
+/// A coordinate in cells, clamped to the grid: the cell's index and the fraction within it, in [0, 1]. NaN counts as 0.
+struct grid_coordinate {
+    int cell;
+    double across;
+    grid_coordinate(double c, int cells) {
+        const double clamped = c > 0 ? (std::min)(c, static_cast<double>(cells)) : 0.0;
+        cell = (std::min)(static_cast<int>(clamped), cells - 1);
+        across = clamped - cell;
+    }
+};
+
 /// Linear interpolation, exact at both ends.
 constexpr float lerp(float a, float b, float t) {
     return a * (1 - t) + b * t;
@@ -9177,11 +9187,8 @@ class gradient_noise {
             lanes<float, N> across{}, weight, sum, corner[4];  // height and slope at both sides of the cell
             lanes<std::int32_t, N> cell{};
             const auto fetch = [&](const side* from) INSONIFY_INLINE_LAMBDA {
-                if constexpr (N == 1)
-                    std::memcpy(corner, &from[cell].height, sizeof corner);
-                else
-                    insonify::detail::transpose<N>(
-                        corner, [&](int k) INSONIFY_INLINE_LAMBDA { return &from[lane(cell, k)].height; });
+                insonify::detail::transpose<N>(
+                    corner, [&](int k) INSONIFY_INLINE_LAMBDA { return &from[lane(cell, k)].height; });
             };
             if (dense) {
                 locate<N>(across, cell, &part.x[i], lattice_.frequency, lattice_.offset_x, static_cast<double>(first));
@@ -9756,11 +9763,8 @@ class ripple_train {
                 }
             }
             const auto stencil = [&](lanes<float, N>(&into)[4], const float* table) INSONIFY_INLINE_LAMBDA {
-                if constexpr (N == 1)
-                    std::memcpy(into, table + cell - 1, sizeof into);
-                else
-                    insonify::detail::transpose<N>(
-                        into, [&](int k) INSONIFY_INLINE_LAMBDA { return table + lane(cell, k) - 1; });
+                insonify::detail::transpose<N>(into,
+                                               [&](int k) INSONIFY_INLINE_LAMBDA { return table + lane(cell, k) - 1; });
             };
             stencil(stencil_re, table_re.data());
             stencil(stencil_im, table_im.data());
@@ -10577,8 +10581,8 @@ inline glm::dvec3 toward_disc(const glm::dvec3& to_light, const glm::dvec2& trav
 /// A point of a disc of light that faces the origin.
 /// @param disc_offset  from the centre, across and up, over the centre's distance from the origin
 inline glm::dvec3 point_of_disc(const glm::dvec3& centre, const glm::dvec2& disc_offset) {
-    const double distance = numeric::square_root(numeric::dot(centre, centre));
-    const double level = numeric::square_root(centre.x * centre.x + centre.y * centre.y);
+    const double distance = numeric::length(centre);
+    const double level = numeric::length(glm::dvec2(centre));
     const glm::dvec2 travel = level > 0 ? glm::dvec2(-centre.x / level, -centre.y / level) : glm::dvec2(1, 0);
     return distance > 0 ? distance * toward_disc(centre / distance, travel, disc_offset) : centre;
 }
@@ -12040,6 +12044,23 @@ class tile_runs {
         entries_.push_back({tiles, {first, count, is_small}});
     }
 
+    /// The same for small triangles, from `first` on: those of the bits in `which`, with the first and the last tile of
+    /// each. All of them usually touch the same tiles.
+    template <int N>
+    INSONIFY_INLINE void add_small(std::uint32_t first, unsigned which, const lanes<std::int32_t, N>& first_tile,
+                                   const lanes<std::int32_t, N>& last_tile) {
+        std::uint32_t firsts[static_cast<unsigned>(N)], lasts[static_cast<unsigned>(N)];
+        store(firsts, first_tile);
+        store(lasts, last_tile);
+        if (which == (2u << (N - 1)) - 1 &&
+            !any(lanes<std::int32_t, N>(((first_tile ^ lane(first_tile, 0)) | (last_tile ^ lane(last_tile, 0))) != 0)))
+            return add(first, N, {firsts[0], lasts[0]}, true);
+        for (unsigned left = which; left != 0; left &= left - 1) {
+            const auto k = static_cast<unsigned>(std::countr_zero(left));
+            add(first + k, 1, {firsts[k], lasts[k]}, true);
+        }
+    }
+
     /// Calls `visit(tile, run)` for every run and each tile that it touches, in order.
     /// @param all  contains the runs' tiles, which are counted in it row by row
     template <class Visit>
@@ -12917,8 +12938,8 @@ struct triangle_lanes {
         read(0, ax, ay);
         read(1, bx, by);
         read(2, cx, cy);
-        extend(west, east, ax, bx, cx);
-        extend(north, south, ay, by, cy);
+        range_of(west, east, ax, bx, cx);
+        range_of(north, south, ay, by, cy);
     }
 
     INSONIFY_INLINE bool are_on_grid() const { return !any(ints(west == grid_position::off_grid)); }
@@ -12939,14 +12960,6 @@ struct triangle_lanes {
         into.y0 = (north + area.before) >> area.bits;
         into.x1 = (east + area.before) >> area.bits;
         into.y1 = (south + area.before) >> area.bits;
-    }
-
-  private:
-    INSONIFY_INLINE static void extend(ints& low, ints& high, const ints& a, const ints& b, const ints& c) {
-        low = a < b ? a : b;
-        low = low < c ? low : c;
-        high = a > b ? a : b;
-        high = high > c ? high : c;
     }
 };
 
@@ -13019,9 +13032,8 @@ struct small_planes {
         store(dx, reals(scale * (b_dz * cy - c_dz * by)));
         store(dy, reals(scale * (c_dz * bx - b_dz * cx)));
 
-        reals low = az < bz ? az : bz, high = az > bz ? az : bz;
-        low = low < cz ? low : cz;
-        high = high > cz ? high : cz;
+        reals low, high;
+        range_of(low, high, az, bz, cz);
         lanes<float, N> narrow;
         convert(narrow, low);
         store(lowest, narrow);
@@ -13185,24 +13197,12 @@ struct no_varyings {};
 
 namespace detail::inline INSONIFY_FLAGS {
 
-template <vertex_shader S>
-struct shader_varyings {
-    using type = no_varyings;
-};
-template <varying_shader S>
-struct shader_varyings<S> {
-    using type = std::remove_cvref_t<decltype(std::declval<const S&>()(std::declval<const vertex&>()).varyings)>;
-};
-
-inline glm::vec4 position_of(const glm::vec4& clip) {
-    return clip;
-}
 template <class Placed>
-    requires requires(const Placed& placed) {
-        placed.clip;
-    }
 INSONIFY_INLINE glm::vec4 position_of(const Placed& placed) {
-    return placed.clip;
+    if constexpr (requires { placed.clip; })
+        return placed.clip;
+    else
+        return placed;
 }
 
 template <vertex_shader S>
@@ -13236,7 +13236,7 @@ INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::dvec3&
 
 /// The varyings of a vertex shader; no_varyings if it has none.
 template <vertex_shader S>
-using varyings_of = typename detail::shader_varyings<S>::type;
+using varyings_of = decltype(detail::varyings_at(std::declval<const S&>(), std::declval<const vertex&>()));
 
 /// Input of a fragment shader: one visible pixel of one triangle.
 template <class Varyings>
@@ -13765,7 +13765,6 @@ struct assembly_kernel {
         pixels.intersect(picture.pixels);
         pixels.is_empty(empty);
 
-        const auto id = static_cast<std::uint32_t>(triangle);
         const int size = tiles.log2_size;  // see tile_range::pack
         const ints first_tile = ints((pixels.x0 >> size) | (pixels.y0 >> size << 16)),
                    last_tile = ints(((pixels.x1 - 1) >> size) | ((pixels.y1 - 1) >> size << 16));
@@ -13776,19 +13775,7 @@ struct assembly_kernel {
         out.stats.degenerate += static_cast<unsigned>(std::popcount(degenerate));
         out.stats.culled += static_cast<unsigned>(std::popcount(culled_mask));
         out.stats.drawn += static_cast<unsigned>(std::popcount(drawn));
-        // All of them usually touch the same tiles.
-        const std::int32_t one_first = lane(first_tile, 0), one_last = lane(last_tile, 0);
-        if (drawn == all && !any(ints(((first_tile ^ one_first) | (last_tile ^ one_last)) != 0))) {
-            out.runs.add(id, N, {static_cast<std::uint32_t>(one_first), static_cast<std::uint32_t>(one_last)}, true);
-            return true;
-        }
-        std::uint32_t firsts[static_cast<unsigned>(N)], lasts[static_cast<unsigned>(N)];
-        store(firsts, first_tile);
-        store(lasts, last_tile);
-        for (unsigned left = drawn; left != 0; left &= left - 1) {
-            const auto k = static_cast<unsigned>(std::countr_zero(left));
-            out.runs.add(id + k, 1, {firsts[k], lasts[k]}, true);
-        }
+        out.runs.template add_small<N>(static_cast<std::uint32_t>(triangle), drawn, first_tile, last_tile);
         return true;
     }
 };
@@ -14915,9 +14902,8 @@ struct lit_grid {
           pitch(grid.columns),
           origin(grid.origin) {
         glm::dvec2 x = grid.right, y = grid.up;
-        const auto cross = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
-        double travel_x = cross(glm::dvec2(travel), y) / cross(x, y),
-               travel_y = cross(x, glm::dvec2(travel)) / cross(x, y);
+        double travel_x = numeric::cross(glm::dvec2(travel), y) / numeric::cross(x, y),
+               travel_y = numeric::cross(x, glm::dvec2(travel)) / numeric::cross(x, y);
         if (numeric::abs(travel_y) > numeric::abs(travel_x)) {
             std::swap(columns, rows);
             std::swap(along, across);
@@ -14937,8 +14923,8 @@ struct lit_grid {
         turn(travel_y, rows, across, y);
         slope = travel_x > 0 ? travel_y / travel_x : 0;
         u_per_metre = travel_x / -travel.z;
-        x_of = glm::dvec2(y.y, -y.x) / cross(x, y);
-        y_of = glm::dvec2(-x.y, x.x) / cross(x, y);
+        x_of = glm::dvec2(y.y, -y.x) / numeric::cross(x, y);
+        y_of = glm::dvec2(-x.y, x.x) / numeric::cross(x, y);
         // A row has one cell less than vertices.
         const auto cell_steps = [&](std::ptrdiff_t vertices) { return vertices - vertices / pitch; };
         first_cell = cell_steps(corner(0, 0));
@@ -15368,7 +15354,7 @@ class mesh_plane_intercepts {
         };
         origin_ = projected(0, 0);
         const glm::dvec2 x = projected(1, 0) - origin_, y = projected(0, 1) - origin_;
-        const double area = x.x * y.y - x.y * y.x;
+        const double area = numeric::cross(x, y);
         x_of_ = glm::dvec2(y.y, -y.x) / area;
         y_of_ = glm::dvec2(-x.y, x.x) / area;
         grid_ = &grid;
@@ -15379,14 +15365,11 @@ class mesh_plane_intercepts {
     }
 
     /// Bounds of the images of a rectangle.
-    std::pair<glm::dvec2, glm::dvec2> of(const glm::dvec2& corner, const glm::dvec2& size) const {
-        glm::dvec2 lower = (*this)(corner), upper = lower;
-        for (const glm::dvec2& other : {glm::dvec2(size.x, 0), glm::dvec2(0, size.y), size}) {
-            const glm::dvec2 at = (*this)(corner + other);
-            lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
-            upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
-        }
-        return {lower, upper};
+    insonify::detail::ground_rect of(const glm::dvec2& corner, const glm::dvec2& size) const {
+        insonify::detail::ground_rect all;
+        for (const glm::dvec2& to : {glm::dvec2(0), glm::dvec2(size.x, 0), glm::dvec2(0, size.y), size})
+            all.include((*this)(corner + to));
+        return all;
     }
 
   private:
@@ -15407,10 +15390,9 @@ class horizon_triangles {
         // sin(grazing angle) = slope of u along the light x sin(elevation) / |normal of the facet|. `steepest` is an
         // upper bound of that |normal|.
         const double relief = horizon.u().highest_z - horizon.u().lowest_z;
-        const auto square_of = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
-        const double steps_per_metre = numeric::square_root((std::max)(square_of(grid_.x_of), square_of(grid_.y_of)));
+        const double steps_per_metre = (std::max)(numeric::length(grid_.x_of), numeric::length(grid_.y_of));
         const double steepest = 1 + 2 * relief * steps_per_metre;
-        const double sine = -travel.z / numeric::square_root(numeric::dot(travel, travel));
+        const double sine = -travel.z / numeric::length(travel);
         constexpr double min_sine = 0x1p-20;  // triangles at a smaller grazing angle are left to the test of points
         min_facing_slope_ = horizon.margin() + min_sine * steepest / sine;
         // `lower` has its right angle at `apex` and leaves out the opposite corner. It is the first triangle of a cell
@@ -15564,9 +15546,8 @@ class horizon_triangles {
         /// @param base              u of its plane at the cell's corner (0, 0)
         INSONIFY_INLINE void operator()(ints& result, const floats& p, const floats& q, const floats& r,
                                         const floats& along_x, const floats& along_y, const floats& base) const {
-            floats largest = p > q ? p : q, smallest = p < q ? p : q;
-            largest = largest > r ? largest : r;
-            smallest = smallest < r ? smallest : r;
+            floats largest, smallest;
+            insonify::detail::range_of(smallest, largest, p, q, r);
             const floats u_slope = along_x + slope * along_y;
             const ints is_above = ints(base + along_x * dx + along_y * dy < eye);
             const ints is_facing = ints(u_slope > min_facing_slope),
@@ -15690,16 +15671,12 @@ class horizon_walk {
           u_(x_ + grid_.u_per_metre * p.z),
           lattice_margin_(horizon.lattice_margin()) {}
 
-    /// Whether the surface blocks the ray of a point on it, where it faces the light.
-    /// @param decide  decide(triangle): test of a triangle in doubles; false for the triangle of the point
+    /// Whether the surface blocks the point's ray.
+    /// @param is_lit_side  whether the point lies on the surface, where it faces the light
+    /// @param decide       decide(triangle): test of a triangle in doubles; false for the triangle of the point
     template <class Decide>
-    bool is_blocked_from_surface(const Decide& decide) const {
-        return walk(true, decide);
-    }
-    /// The same for any point.
-    template <class Decide>
-    bool is_blocked_from_anywhere(const Decide& decide) const {
-        return walk(lies_above(), decide);
+    bool is_blocked(bool is_lit_side, const Decide& decide) const {
+        return walk(is_lit_side || lies_above(), decide);
     }
 
   private:
@@ -15869,20 +15846,16 @@ class grid_caster {
     void decide_own_points(const points& at, std::size_t first, std::size_t last, decision* into, isa level) const {
         insonify::detail::dispatch(kernel{*this, at, first, last, into}, level);
     }
-    /// Whether it blocks the light of one of its own points that faces the light.
+    /// Whether it blocks the light of a point.
     /// @param p       in the frame of the light
+    /// @param is_own  whether p lies on this caster and faces the light
     /// @param decide  decide(triangle): whether the triangle blocks p's light, in doubles; false for p's own triangle
     template <class Decide>
-    bool blocks_own_point(const glm::dvec3& p, const Decide& decide) const {
+    bool blocks(const glm::dvec3& p, bool is_own, const Decide& decide) const {
         const glm::dvec3 at = transform_point(to_mesh_, p);
-        const decision result = bounds_.at(at);
+        const decision result = is_own ? bounds_.at(at) : decision::undecided;
         if (result != decision::undecided) return result == decision::dark;
-        return horizon_walk(bounds_, macrocells_, at).is_blocked_from_surface(decide);
-    }
-    /// The same for any point.
-    template <class Decide>
-    bool blocks(const glm::dvec3& p, const Decide& decide) const {
-        return horizon_walk(bounds_, macrocells_, transform_point(to_mesh_, p)).is_blocked_from_anywhere(decide);
+        return horizon_walk(bounds_, macrocells_, at).is_blocked(is_own, decide);
     }
 
     /// See horizon_triangles.
@@ -15988,9 +15961,9 @@ class light_rays {
         };
         const glm::dvec2 a2 = across(a), b2 = across(b), c2 = across(c);
         const double direction = to_light[axis] < 0 ? -1 : 1;
-        const double bc = direction * (b2.x * c2.y - b2.y * c2.x);
-        const double ca = direction * (c2.x * a2.y - c2.y * a2.x);
-        const double ab = direction * (a2.x * b2.y - a2.y * b2.x);
+        const double bc = direction * numeric::cross(b2, c2);
+        const double ca = direction * numeric::cross(c2, a2);
+        const double ab = direction * numeric::cross(a2, b2);
         const bool is_left = bc >= 0 && ca >= 0 && ab >= 0, is_right = bc <= 0 && ca <= 0 && ab <= 0;
         if (!is_left && !is_right) return false;
         const glm::dvec3 normal = numeric::cross(b - a, c - a);
@@ -16156,12 +16129,6 @@ struct plane_triangles {
         is_behind = ints(columns[0][3] == plane_vertex::behind) & ints(columns[1][3] == plane_vertex::behind) &
                     ints(columns[2][3] == plane_vertex::behind);
     }
-    INSONIFY_INLINE void range(floats& low, floats& high, int axis) const {
-        low = a[axis] < b[axis] ? a[axis] : b[axis];
-        low = low < c[axis] ? low : c[axis];
-        high = a[axis] > b[axis] ? a[axis] : b[axis];
-        high = high > c[axis] ? high : c[axis];
-    }
 };
 
 /// Notes which tiles the triangles of a chunk touch, in order.
@@ -16191,7 +16158,7 @@ struct tile_assembly_kernel {
         ints from[2], to[2], outside{};
         unroll<2>([&](int axis) INSONIFY_INLINE_LAMBDA {
             floats low, high;
-            t.range(low, high, axis);
+            range_of(low, high, t.a[axis], t.b[axis], t.c[axis]);
             // The margin covers rounding. Triangles with a NaN bound go into all tiles.
             const auto scale = static_cast<float>(1 / tile[axis]);
             const auto last_cell = static_cast<float>(axis == 0 ? tiles.columns - 1 : tiles.rows - 1);
@@ -16209,18 +16176,7 @@ struct tile_assembly_kernel {
         }
         if (drawn == 0) return;
         const ints first_tile = from[0] | from[1] << 16, last_tile = to[0] | to[1] << 16;
-        const auto id = static_cast<std::uint32_t>(start);
-        const std::int32_t one_first = lane(first_tile, 0), one_last = lane(last_tile, 0);
-        if (drawn == (2u << (N - 1)) - 1 && !any(ints(((first_tile ^ one_first) | (last_tile ^ one_last)) != 0))) {
-            runs.add(id, N, {static_cast<std::uint32_t>(one_first), static_cast<std::uint32_t>(one_last)}, true);
-            return;
-        }
-        for (unsigned left = drawn; left != 0; left &= left - 1) {
-            const int k = std::countr_zero(left);
-            runs.add(id + static_cast<unsigned>(k), 1,
-                     {static_cast<std::uint32_t>(lane(first_tile, k)), static_cast<std::uint32_t>(lane(last_tile, k))},
-                     true);
-        }
+        runs.template add_small<N>(static_cast<std::uint32_t>(start), drawn, first_tile, last_tile);
     }
 
     /// Whether a triangle that reaches behind a point light lies beyond one side of the pyramid from the light through
@@ -16513,7 +16469,7 @@ struct occlusion_kernel {
         floats extent[2], size{};
         unroll<2>([&](int axis) INSONIFY_INLINE_LAMBDA {
             floats low, high;
-            t.range(low, high, axis);
+            range_of(low, high, t.a[axis], t.b[axis], t.c[axis]);
             const float lower = receivers.lower()[axis], scale = receivers.scale()[axis];
             const float last_cell = static_cast<float>(axis == 0 ? receivers.columns() - 1 : receivers.rows() - 1);
             const floats largest_coordinate = high < 0.0f - low ? 0.0f - low : high;
@@ -16527,7 +16483,7 @@ struct occlusion_kernel {
             extent[axis] = (high - low) + 2.0f * receivers.cell()[axis];
         });
         floats low, high;
-        t.range(low, high, 2);
+        range_of(low, high, t.a[2], t.b[2], t.c[2]);
         const floats height_rounding =
             0x1.2p-24f * (high > 0.0f - low ? high : 0.0f - low) + height_error_of_receivers();
         missed |=
@@ -16712,14 +16668,10 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 
 /// The rectangle of a plane that contains the eight points corner(0) to corner(7).
 template <class Corner>
-std::pair<glm::dvec2, glm::dvec2> extent_on(const light_plane& plane, const Corner& corner) {
-    glm::dvec2 lower(std::numeric_limits<double>::infinity()), upper = -lower;
-    for (int i = 0; i < 8; ++i) {
-        const glm::dvec3 at = plane(corner(i));
-        lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
-        upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
-    }
-    return {lower, upper};
+insonify::detail::ground_rect extent_on(const light_plane& plane, const Corner& corner) {
+    insonify::detail::ground_rect all;
+    for (int i = 0; i < 8; ++i) all.include(glm::dvec2(plane(corner(i))));
+    return all;
 }
 
 /// One plane.
@@ -16953,6 +16905,9 @@ class exact_occlusion {
             add_point_planes(std::get<point_light>(light), where.box, side, ex);
     }
 
+    /// See light_rays::toward.
+    glm::dvec3 toward(const glm::dvec3& p) const { return rays_.toward(p); }
+
     /// See collective_occlusion.
     void screen(const points& at, const results& into) const {
         std::fill(into.caster.begin(), into.caster.end(), invalid_id);
@@ -16977,7 +16932,7 @@ class exact_occlusion {
         insonify::detail::uninitialized_array<decision> decisions(c.mesh.triangles.size(),
                                                                   insonify::detail::memory_of(ex));
         // Triangles that other casters may shade are left to the test of points.
-        detail::dynamic_array<std::pair<glm::dvec2, glm::dvec2>> shared;
+        detail::dynamic_array<insonify::detail::ground_rect> shared;
         const detail::tiled_plane& plane = planes_.front();
         const detail::mesh_plane_intercepts intercepts(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
@@ -17064,8 +17019,7 @@ class exact_occlusion {
         const auto decide = [&](std::uint32_t triangle) {
             return !(is_own && at.triangle[i] == triangle) && is_blocked_by(number, triangle, at[i]);
         };
-        return is_own && at.face_light ? grids_[number]->blocks_own_point(at[i], decide)
-                                       : grids_[number]->blocks(at[i], decide);
+        return grids_[number]->blocks(at[i], is_own && at.face_light, decide);
     }
     bool is_blocked_by(std::uint32_t number, std::uint32_t triangle, const glm::dvec3& p) const {
         const caster& c = casters_[number];
@@ -17300,17 +17254,6 @@ namespace seabed {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A coordinate in cells, clamped to the grid: the cell's index and the fraction within it, in [0, 1]. NaN counts as 0.
-struct grid_coordinate {
-    int cell;
-    double across;
-    grid_coordinate(double c, int cells) {
-        const double clamped = c > 0 ? (std::min)(c, static_cast<double>(cells)) : 0.0;
-        cell = (std::min)(static_cast<int>(clamped), cells - 1);
-        across = clamped - cell;
-    }
-};
-
 /// The plane at a point: its height, and its rise per cell in x and in y, metres.
 struct facet {
     double height, rise_x, rise_y;
@@ -17367,7 +17310,7 @@ struct heightfield {
     INSONIFY_TAGGED glm::vec3 normal_at(double x, double y) const {
         const detail::facet f = facet_at(x, y);
         const glm::dvec3 normal(-f.rise_x, -f.rise_y, spacing);
-        return glm::vec3(normal / numeric::square_root(numeric::dot(normal, normal)));
+        return glm::vec3(normal / numeric::length(normal));
     }
 
     /// Type at the nearest vertex.
@@ -17986,23 +17929,17 @@ struct light_arrays {
     }
 };
 
-/// Points that face the light concern all casters; those that face away only need the targets, for labels.
+/// Calls visit(points, results) for each batch of a list: points that face the light concern all casters, those that
+/// face away only need the targets, for labels.
 /// @param targets  casters numbered below this are targets
-inline shadow::points batch(shadow::points all, bool face_light, std::uint32_t targets) {
-    if (!face_light) all.casters = targets;
-    all.face_light = face_light;
-    return all;
-}
-
-/// Calls visit(points, results) for each batch of a list.
 template <class Visit>
 void for_each_batch(const point_list& points, const shadow::results& all, std::uint32_t targets, const Visit& visit) {
-    if (points.facing > 0)
-        visit(batch(points.facing_points(), true, targets),
-              shadow::results{all.lit.first(points.facing), all.caster.first(points.facing)});
-    if (points.facing_away > 0)
-        visit(batch(points.points_facing_away(), false, targets),
-              shadow::results{all.lit.subspan(points.facing), all.caster.subspan(points.facing)});
+    shadow::points facing = points.facing_points(), away = points.points_facing_away();
+    away.casters = targets, away.face_light = false;
+    if (facing.size() > 0)
+        visit(facing, shadow::results{all.lit.first(points.facing), all.caster.first(points.facing)});
+    if (away.size() > 0)
+        visit(away, shadow::results{all.lit.subspan(points.facing), all.caster.subspan(points.facing)});
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -19375,7 +19312,7 @@ class seabed_probe {
                 glm::dvec2(in_picture.x * cosine - in_picture.y * sine, in_picture.x * sine + in_picture.y * cosine);
             if (view.has_point_light()) {  // the light keeps its position in the world
                 const glm::dvec3 light = view.light_position() - glm::dvec3(in_picture, 0);
-                const double level = numeric::square_root(light.x * light.x + light.y * light.y);
+                const double level = numeric::length(glm::dvec2(light));
                 chip.light_distance = static_cast<float>(numeric::square_root(level * level + light.z * light.z));
                 chip.grazing = (std::max)(static_cast<float>(numeric::atan2(light.z, level)), 1e-9f);
                 chip.light_azimuth = static_cast<float>(numeric::atan2(-light.y, -light.x));
@@ -19496,10 +19433,7 @@ inline int max_subpixel_bits(const overhead& rig) {
 inline double largest_cot_elevation(const overhead_geometry& view) {
     if (!view.has_point_light()) return view.light().cot_elevation();
     const glm::dvec3 light = view.light_position();
-    const glm::dvec2 corner = view.half_extent(0);
-    return (numeric::square_root(light.x * light.x + light.y * light.y) +
-            numeric::square_root(corner.x * corner.x + corner.y * corner.y)) /
-           light.z;
+    return (numeric::length(glm::dvec2(light)) + numeric::length(view.half_extent(0))) / light.z;
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -19552,7 +19486,7 @@ struct settings {
         const double size = radius * static_cast<double>(placement.scale);
         const auto altitude = static_cast<double>(rig.altitude);
         const double below = (std::max)(altitude - at.z - size, 0.05 * altitude);
-        const double aside = numeric::square_root(at.x * at.x + at.y * at.y) + size;
+        const double aside = numeric::length(glm::dvec2(at)) + size;
         const double lean = numeric::square_root(1 + aside * aside / (below * below));
         const double seen = silhouette_error * view.ground_sampling() * below / altitude / lean;
         const double cast = shadow_edge_error * view.ground_sampling() * across_light(view, at, size);
@@ -19940,7 +19874,7 @@ inline mesh with_creases(const mesh& m, float angle = 0.7f) {
         const glm::dvec3 p[3] = {glm::dvec3(m.positions[m.triangles[t].x]), glm::dvec3(m.positions[m.triangles[t].y]),
                                  glm::dvec3(m.positions[m.triangles[t].z])};
         const glm::dvec3 area = numeric::cross(p[1] - p[0], p[2] - p[0]);
-        const double length = numeric::square_root(numeric::dot(area, area));
+        const double length = numeric::length(area);
         if (length > 0 && numeric::is_finite(length)) facets[t] = area / length;
         for (int i = 0; i < 3; ++i) {
             const double turn = numeric::atan2(length, numeric::dot(p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]));
@@ -19964,7 +19898,7 @@ inline mesh with_creases(const mesh& m, float angle = 0.7f) {
             glm::dvec3 sum(0);
             for (std::size_t j = begin; j < end; ++j)
                 if (i == j || numeric::dot(facet, facets[corners[j].triangle]) > smoothest) sum += corners[j].weighted;
-            const double length = numeric::square_root(numeric::dot(sum, sum));
+            const double length = numeric::length(sum);
             const glm::vec3 normal =
                 facet != glm::dvec3(0) && length > 0 ? glm::vec3(sum / length) : glm::vec3(0, 0, 1);
             std::size_t vertex = fan;
@@ -20337,7 +20271,7 @@ class obj_reader {
                 const auto [normal, texture] = key(*at);
                 if (at == first || key(*at) != key(*(at - 1))) {
                     const glm::dvec3 n = normal == none ? glm::dvec3(0) : glm::dvec3(normals_[normal]);
-                    const double length = numeric::square_root(numeric::dot(n, n));
+                    const double length = numeric::length(n);
                     complete = complete && length > 0;
                     out.positions.push_back(positions_[p]);
                     out.normals.push_back(length > 0 ? glm::vec3(n / length) : glm::vec3(0));
@@ -21366,7 +21300,7 @@ inline std::vector<glm::dvec2> footprint(const mesh_view& m, const pose& placeme
     const auto add = [&](const glm::dvec2& p, std::size_t kept) {
         while (outline.size() >= kept + 2) {
             const glm::dvec2 a = outline[outline.size() - 2], ab = outline.back() - a, ap = p - a;
-            if (ab.x * ap.y - ab.y * ap.x > 0) break;
+            if (numeric::cross(ab, ap) > 0) break;
             outline.pop_back();
         }
         outline.push_back(p);
@@ -22672,10 +22606,10 @@ namespace detail::inline INSONIFY_FLAGS {
 /// Distance from p to the segment from a to b, squared.
 inline double square_distance(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
     const glm::dvec2 ab = b - a, ap = p - a;
-    const double square = ab.x * ab.x + ab.y * ab.y;
-    const double t = square > 0 ? (std::min)((std::max)((ap.x * ab.x + ap.y * ab.y) / square, 0.0), 1.0) : 0.0;
-    const double x = ap.x - t * ab.x, y = ap.y - t * ab.y;
-    return x * x + y * y;
+    const double square = numeric::dot(ab, ab);
+    const double t = square > 0 ? (std::min)((std::max)(numeric::dot(ap, ab) / square, 0.0), 1.0) : 0.0;
+    const glm::dvec2 offset(ap.x - t * ab.x, ap.y - t * ab.y);
+    return numeric::dot(offset, offset);
 }
 inline double distance_to_path(const glm::dvec2& p, const std::vector<glm::dvec2>& path) {
     double square = square_distance(p, path[0], path[0]);
@@ -22685,8 +22619,7 @@ inline double distance_to_path(const glm::dvec2& p, const std::vector<glm::dvec2
 
 /// Signed distance of a position from the border of an area, metres, positive inside.
 inline double signed_distance(const disc& d, const glm::dvec2& p) {
-    const glm::dvec2 offset = p - d.centre;
-    return static_cast<double>(d.radius) - numeric::square_root(offset.x * offset.x + offset.y * offset.y);
+    return static_cast<double>(d.radius) - numeric::length(p - d.centre);
 }
 inline double signed_distance(const band& b, const glm::dvec2& p) {
     return 0.5 * static_cast<double>(b.width) - distance_to_path(p, b.path);
@@ -22751,32 +22684,18 @@ inline image<float> border_distances(const image<float>& coverage) {
         }
     return distances;
 }
-/// A stencil's signed distances from its border.
-struct distance_map {
-    image<float> distances;  ///< in pixels, see border_distances
-    glm::dvec2 origin{0};    ///< of pixel (0, 0), metres
-    double spacing = 1;      ///< metres
-
-    distance_map() = default;
-    explicit distance_map(const stencil& s)
-        : distances(border_distances(s.coverage)), origin(s.origin), spacing(s.spacing) {}
-};
-inline double signed_distance(const distance_map& m, const glm::dvec2& p) {
-    struct sample {
-        int lower, upper;
-        double fraction;
+/// `coverage` holds border_distances.
+inline double signed_distance(const stencil& s, const glm::dvec2& p) {
+    const image<float>& distances = s.coverage;
+    const int right = distances.width() - 1, upper = distances.height() - 1;
+    const grid_coordinate x((p.x - s.origin.x) / s.spacing, (std::max)(right, 1)),
+        y((p.y - s.origin.y) / s.spacing, (std::max)(upper, 1));
+    const auto value = [&](int i, int j) {
+        return static_cast<double>(distances((std::min)(x.cell + i, right), (std::min)(y.cell + j, upper)));
     };
-    const auto axis = [](double u, int pixels) {
-        const double clamped = u > 0 ? (std::min)(u, static_cast<double>(pixels - 1)) : 0.0;
-        const int cell = (std::min)(static_cast<int>(clamped), (std::max)(pixels - 2, 0));
-        return sample{cell, (std::min)(cell + 1, pixels - 1), clamped - cell};
-    };
-    const auto [x, right, u] = axis((p.x - m.origin.x) / m.spacing, m.distances.width());
-    const auto [y, up, v] = axis((p.y - m.origin.y) / m.spacing, m.distances.height());
-    const auto value = [&](int i, int j) { return static_cast<double>(m.distances(i, j)); };
-    const double low = value(x, y) + u * (value(right, y) - value(x, y));
-    const double high = value(x, up) + u * (value(right, up) - value(x, up));
-    return (low + v * (high - low)) * m.spacing;
+    const double low = value(0, 0) + x.across * (value(1, 0) - value(0, 0));
+    const double high = value(0, 1) + x.across * (value(1, 1) - value(0, 1));
+    return (low + y.across * (high - low)) * s.spacing;
 }
 
 inline void validate(const disc& d) {
@@ -22824,10 +22743,7 @@ class area_sampler {
                 if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(shape)>, patches>) validate(shape);
             },
             shape_);
-        if (auto* const s = std::get_if<stencil>(&shape_)) {
-            stencil_distances_ = distance_map(*s);
-            s->coverage = {};  // no longer needed
-        }
+        if (auto* const s = std::get_if<stencil>(&shape_)) s->coverage = border_distances(s->coverage);
     }
 
     /// Writes the signed distances of a stretch's positions, metres, positive inside.
@@ -22841,8 +22757,6 @@ class area_sampler {
                     const glm::dvec2 p(part.x[i], part.y);
                     if constexpr (std::is_same_v<shape_type, patches>)
                         values[i] = offset_ + scale_ * values[i];
-                    else if constexpr (std::is_same_v<shape_type, stencil>)
-                        values[i] += static_cast<float>(signed_distance(stencil_distances_, p));
                     else
                         values[i] += static_cast<float>(signed_distance(shape, p));
                 }
@@ -22865,8 +22779,7 @@ class area_sampler {
         return {.rms = ragged, .longest = longest, .shortest = border, .exponent = 3.6f};
     }
 
-    area shape_;
-    distance_map stencil_distances_;  ///< if the area is a stencil
+    area shape_;  ///< a stencil's coverage is replaced by its border_distances
     power_law_noise noise_;
     float scale_ = 1, offset_ = 0;
 };
@@ -23607,12 +23520,9 @@ inline void validate(const moat& m) {
 /// Upper bound of a moat's distance from the corners of its outline.
 inline double moat_reach(const moat& m) {
     // The tail is as wide as the outline, whose corners may all lie to one side of it.
-    double square = 0;
-    for (const glm::dvec2& p : m.outline) {
-        const glm::dvec2 offset = p - m.outline.front();
-        square = (std::max)(square, offset.x * offset.x + offset.y * offset.y);
-    }
-    return numeric::square_root(square) + static_cast<double>(m.width) + static_cast<double>(m.tail);
+    double reach = 0;
+    for (const glm::dvec2& p : m.outline) reach = (std::max)(reach, numeric::length(p - m.outline.front()));
+    return reach + static_cast<double>(m.width) + static_cast<double>(m.tail);
 }
 
 /// Change of the ground's height at a position, metres.
@@ -23635,7 +23545,7 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
 
     const double width = static_cast<double>(m.width), outside = -signed_distance(m.outline, p);
     const glm::dvec2 at = to_current_frame(p);
-    const double away = numeric::square_root(at.x * at.x + at.y * at.y);
+    const double away = numeric::length(at);
     const double facing = away > 0 ? 0.75 - 0.25 * at.x / away : 0.75;
     double change =
         -static_cast<double>(m.depth) * facing * biweight(outside > 0 ? outside / width : 2 * outside / width);
@@ -23803,9 +23713,8 @@ inline float height_after(const flatten& e, const glm::dvec2& p, float height) {
 }
 inline float height_after(const ramp& e, const glm::dvec2& p, float height) {
     const glm::dvec2 way = e.to - e.from, offset = p - e.from;
-    const double square = way.x * way.x + way.y * way.y, span = numeric::square_root(square);
-    const double t = (way.x * offset.x + way.y * offset.y) / square;
-    const double side = (way.x * offset.y - way.y * offset.x) / span;
+    const double span = numeric::length(way), t = numeric::dot(way, offset) / numeric::dot(way, way);
+    const double side = numeric::cross(way, offset) / span;
     // Beyond its ends the ramp is level and fades within a quarter of its width.
     const double past = (t < 0 ? -t : t > 1 ? t - 1 : 0.0) * span;
     const float weight = plateau(static_cast<float>(2 * numeric::abs(side)) / e.width) *
@@ -23819,9 +23728,9 @@ inline float height_after(const stamp& e, const glm::dvec2& p, float height) {
     double before = 0, nearest = square_distance(p, e.path[0], e.path[0]);
     for (std::size_t i = 1; i < e.path.size(); ++i) {
         const glm::dvec2 &a = e.path[i - 1], way = e.path[i] - a, offset = p - a;
-        const double square = way.x * way.x + way.y * way.y, span = numeric::square_root(square);
+        const double span = numeric::length(way);
         if (span == 0) continue;
-        const double along = before + (way.x * offset.x + way.y * offset.y) / span;
+        const double along = before + numeric::dot(way, offset) / span;
         const double last = static_cast<double>(numeric::floor_to_int((before + span) / every)) * every;
         const double first = -static_cast<double>(numeric::floor_to_int(-before / every)) * every;
         const double mark = static_cast<double>(numeric::floor_to_int(along / every + 0.5)) * every;
@@ -24227,59 +24136,28 @@ struct receiver_plane {
     }
 };
 
-}  // namespace INSONIFY_FLAGS
-
-namespace detail::inline INSONIFY_FLAGS {
-
-/// A receiver in the units of one map.
-class map_receiver {
-  public:
-    map_receiver(const height_map& map, const receiver_plane& r)
-        : map_(map), at_(map.on_map(r.uvz)), slope_u_(map.on_map(r.slope_u)), slope_v_(map.on_map(r.slope_v)) {
-        bias_ = 1e-6f + numeric::abs(slope_u_) + numeric::abs(slope_v_);  // heights are rounded to 1e-7
-    }
-
-    /// Whether no texel within `radius` of the nearest one is on the map: nothing can be in the way.
-    bool is_beyond(int radius) const {
-        const auto reach = static_cast<float>(radius);
-        return !(at_.x >= -reach && at_.y >= -reach && at_.x < static_cast<float>(map_.columns()) + reach &&
-                 at_.y < static_cast<float>(map_.rows()) + reach);
-    }
-
-    /// Number of the (2 radius + 1)^2 rays around the point that no caster blocks. @pre !is_beyond(radius)
-    int open_rays(int radius) const {
-        const int column = static_cast<int>(at_.x + 64) - 64, row = static_cast<int>(at_.y + 64) - 64;  // rounds down
-        int open = 0;
-        for (int j = row - radius; j <= row + radius; ++j)
-            for (int i = column - radius; i <= column + radius; ++i) open += is_open(i, j) ? 1 : 0;
-        return open;
-    }
-
-  private:
-    bool is_open(int column, int row) const {
-        if (column < 0 || row < 0 || column >= map_.columns() || row >= map_.rows()) return true;
-        const float plane = at_.z + slope_u_ * (static_cast<float>(column) + 0.5f - at_.x) +
-                            slope_v_ * (static_cast<float>(row) + 0.5f - at_.y);
-        return map_(column, row) <= plane + bias_;
-    }
-
-    const height_map& map_;
-    glm::vec3 at_;
-    float slope_u_, slope_v_, bias_;
-};
-
-}  // namespace detail::inline INSONIFY_FLAGS
-
-inline namespace INSONIFY_FLAGS {
-
 /// Share of the light that reaches a point, averaged over (2 radius + 1)^2 texels; surfaces that face away count as
 /// level.
 /// @param radius  texels; 0 is the nearest texel alone. @pre 0 to 8
 inline float lit(const height_map& map, const receiver_plane& r, int radius) {
-    const detail::map_receiver at(map, r);
-    if (at.is_beyond(radius)) return 1;
+    const glm::vec3 at = map.on_map(r.uvz);
+    const float slope_u = map.on_map(r.slope_u), slope_v = map.on_map(r.slope_v), reach = static_cast<float>(radius);
+    const float bias = 1e-6f + numeric::abs(slope_u) + numeric::abs(slope_v);  // heights are rounded to 1e-7
+    // No texel within `radius` of the nearest one is on the map: nothing can be in the way.
+    if (!(at.x >= -reach && at.y >= -reach && at.x < static_cast<float>(map.columns()) + reach &&
+          at.y < static_cast<float>(map.rows()) + reach))
+        return 1;
+    const int column = static_cast<int>(at.x + 64) - 64, row = static_cast<int>(at.y + 64) - 64;  // rounds down
+    int open = 0;
+    for (int j = row - radius; j <= row + radius; ++j)
+        for (int i = column - radius; i <= column + radius; ++i) {
+            const bool is_on_map = i >= 0 && j >= 0 && i < map.columns() && j < map.rows();
+            const float plane = at.z + slope_u * (static_cast<float>(i) + 0.5f - at.x) +
+                                slope_v * (static_cast<float>(j) + 0.5f - at.y);
+            open += !is_on_map || map(i, j) <= plane + bias ? 1 : 0;
+        }
     const int rays = (2 * radius + 1) * (2 * radius + 1);
-    return static_cast<float>(at.open_rays(radius)) / static_cast<float>(rays);
+    return static_cast<float>(open) / static_cast<float>(rays);
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -24391,8 +24269,7 @@ class map_occlusion {
     static light_frame parallel(const any_light& light) {
         if (const auto* source = std::get_if<point_light>(&light)) {
             const glm::dvec3& p = source->position;
-            insonify::detail::refuse("the distance of the light (overhead.light_distance)",
-                                     numeric::square_root(numeric::dot(p, p)),
+            insonify::detail::refuse("the distance of the light (overhead.light_distance)", numeric::length(p),
                                      "infinite for shadow maps; shadow::exact and shadow::penumbra take a point_light");
         }
         return light_frame(std::get<directional_light>(light));
@@ -24480,35 +24357,24 @@ class penumbra_occlusion {
             const double share = i == 0 ? 0 : numeric::square_root((i + 0.5) / samples);
             const auto [sine, cosine] = numeric::sin_cos_turns(0.6180339887498949 * i);
             const auto at = sample_of(light, radius * share * glm::dvec2(cosine, sine));
-            if (at) lights_.push_back({exact_occlusion(casters, *at, bounds, ex), *at});
+            if (at) lights_.push_back({casters, *at, bounds, ex});
         }
     }
 
     /// See occlusion.
     void test(const points& at, const results& into) const {
-        lights_.front().blocked.test(at, into);
+        lights_.front().test(at, into);
         insonify::detail::uninitialized_array<float> lit(at.size());
         insonify::detail::uninitialized_array<std::uint32_t> blocking(at.size());
         const results one{lit, blocking};
         for (std::size_t i = 1; i < lights_.size(); ++i) {
-            lights_[i].blocked.test(at, one);
-            add(i, at, one, into);
+            lights_[i].test(at, one);
+            add(lights_[i], at, one, into);
         }
         for (float& lit_sum : into.lit) lit_sum /= static_cast<float>(samples_);
     }
 
   private:
-    /// One point of the light, above the horizon.
-    struct sample {
-        exact_occlusion blocked;
-        any_light light;
-
-        glm::dvec3 toward(const glm::dvec3& p) const {
-            if (const auto* source = std::get_if<point_light>(&light)) return source->position - p;
-            return light_frame(std::get<directional_light>(light)).to_light();
-        }
-    };
-
     /// A point of the light, or none below the horizon.
     /// @param disc_offset  from the disc's centre, across and up, divided by the light's distance
     static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& disc_offset) {
@@ -24517,32 +24383,25 @@ class penumbra_occlusion {
             return point_light{point_of_disc(source->position, disc_offset)};
         const light_frame frame(std::get<directional_light>(light));
         const glm::dvec3 d = toward_disc(frame.to_light(), frame.travel(), disc_offset);
-        const double elevation = numeric::atan2(d.z, numeric::square_root(d.x * d.x + d.y * d.y));
+        const double elevation = numeric::atan2(d.z, numeric::length(glm::dvec2(d)));
         if (!(elevation >= directional_light::lowest_elevation)) return std::nullopt;
         return directional_light{numeric::atan2(-d.y, -d.x), elevation};
     }
 
     /// Adds the light of one sample to the points whose facets show it and the light's centre the same side.
-    void add(std::size_t number, const points& at, const results& one, const results& into) const {
-        const sample &middle = lights_.front(), &here = lights_[number];
-        glm::dvec3 to_middle = middle.toward({}), to_here = here.toward({});
-        const bool is_point_light = std::holds_alternative<point_light>(middle.light);
+    void add(const exact_occlusion& here, const points& at, const results& one, const results& into) const {
         for (std::size_t i = 0; i < at.size(); ++i) {
             if (!(one.lit[i] > 0)) continue;
             const glm::dvec3 facet = facet_of(casters_, at, i);
-            if (is_point_light) {
-                to_middle = middle.toward(at[i]);
-                to_here = here.toward(at[i]);
-            }
-            const bool faces =
-                facet == glm::dvec3(0) || (numeric::dot(facet, to_here) > 0) == (numeric::dot(facet, to_middle) > 0);
+            const bool faces = facet == glm::dvec3(0) || (numeric::dot(facet, here.toward(at[i])) > 0) ==
+                                                             (numeric::dot(facet, lights_.front().toward(at[i])) > 0);
             if (faces) into.lit[i] += one.lit[i];
         }
     }
 
     detail::dynamic_array<caster> casters_;
     int samples_;
-    detail::dynamic_array<sample> lights_;  ///< the middle first
+    detail::dynamic_array<exact_occlusion> lights_;  ///< the middle first
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -25964,15 +25823,9 @@ class ping_fan {
         if (t >= wall_first_) t = wall_first_ + (numeric::atan2(x, down) - wall_from_) / wall_angle_;
         return (std::min)((std::max)(t, first_), first_ + static_cast<double>(size()));
     }
-    struct direction {
-        double sine, cosine;  ///< across and down
-    };
-    /// The inverse of `coordinate`.
-    direction at(double t) const {
-        if (t >= wall_first_) {
-            const auto [sine, cosine] = numeric::sin_cos(wall_from_ + wall_angle_ * (t - wall_first_));
-            return {sine, cosine};
-        }
+    /// The inverse of `coordinate`: across and down.
+    numeric::sine_cosine at(double t) const {
+        if (t >= wall_first_) return numeric::sin_cos(wall_from_ + wall_angle_ * (t - wall_first_));
         const double tangent = t * spacing_;
         const double cosine = 1 / numeric::square_root(1 + tangent * tangent);
         return {tangent * cosine, cosine};
@@ -26166,7 +26019,7 @@ class sliced_target {
         if (box.empty()) return;
         centre_ = transform_point(to_world_, box.centre());
         const glm::dvec3 half = 0.5 * box.size();
-        radius_ = numeric::square_root(numeric::dot(half, half)) * static_cast<double>(t.placement.scale) * (1 + 1e-6);
+        radius_ = numeric::length(half) * static_cast<double>(t.placement.scale) * (1 + 1e-6);
         const glm::dmat3& linear = to_world_.linear;
         half_height_ = numeric::abs(linear[0].z) * half.x + numeric::abs(linear[1].z) * half.y +
                        numeric::abs(linear[2].z) * half.z;
@@ -26319,7 +26172,7 @@ class target_hits {
             }
             const ping_fan::ray& ray = (*fan_)[k];
             const glm::dvec2 p = point(o, {ray.sine, ray.cosine});
-            const double range = p.x * p.x + p.y * p.y;
+            const double range = numeric::dot(p, p);
             if (range < nearest_[k].range) nearest_[k] = {range, id};
         }
     }
@@ -26405,12 +26258,12 @@ class target_hits {
     }
 
     /// The fraction of a segment at which a direction meets it, in [0, 1].
-    static double along(const cut_segment& o, const ping_fan::direction& d) {
+    static double along(const cut_segment& o, const numeric::sine_cosine& d) {
         const double before = o.a.x * d.cosine - o.a.down * d.sine, after = o.b.x * d.cosine - o.b.down * d.sine;
         const double f = before / (before - after);
         return f > 0 ? (f < 1 ? f : 1.0) : 0.0;
     }
-    static glm::dvec2 point(const cut_segment& o, const ping_fan::direction& d) {
+    static glm::dvec2 point(const cut_segment& o, const numeric::sine_cosine& d) {
         const double f = along(o, d);
         return {o.a.x + f * (o.b.x - o.a.x), o.a.down + f * (o.b.down - o.a.down)};
     }
@@ -26419,18 +26272,18 @@ class target_hits {
     void add_hit(std::uint32_t id, double low, double high) {
         const segment& p = segments_[id];
         const cut_segment& o = p.shape;
-        const ping_fan::direction middle = fan_->at(0.5 * (low + high));
+        const numeric::sine_cosine middle = fan_->at(0.5 * (low + high));
         const double f = along(o, middle);
         const glm::dvec2 at(o.a.x + f * (o.b.x - o.a.x), o.a.down + f * (o.b.down - o.a.down));
         const glm::dvec2 from = point(o, fan_->at(low)), to = point(o, fan_->at(high));
-        if (!(at.x * at.x + at.y * at.y > 0)) return;
+        if (!(numeric::dot(at, at) > 0)) return;
         hits_.push_back({high - low, at.x, at.y, from.x, from.y, to.x, to.y,
                          grazing_sine(o, static_cast<float>(f), middle), p.reflectivity, p.instance});
     }
 
     /// Sine of the grazing angle. The facet decides which side is insonified, and the sign of the normal; it replaces
     /// normals that are zero or not finite.
-    static float grazing_sine(const cut_segment& o, float f, const ping_fan::direction& d) {
+    static float grazing_sine(const cut_segment& o, float f, const numeric::sine_cosine& d) {
         const auto sine = static_cast<float>(d.sine), cosine = static_cast<float>(d.cosine);
         glm::vec3 n = o.a.normal + f * (o.b.normal - o.a.normal);
         float square = numeric::dot(n, n);
@@ -26454,11 +26307,11 @@ class target_hits {
         for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
             if (!(ends_[i] < ends_[i + 1])) continue;
             const double middle = 0.5 * (ends_[i] + ends_[i + 1]);
-            const ping_fan::direction d = fan_->at(middle);
+            const numeric::sine_cosine d = fan_->at(middle);
             candidate best{std::numeric_limits<double>::infinity(), 0};
             const auto offer = [&](std::uint32_t id) {
                 const glm::dvec2 p = point(segments_[id].shape, d);
-                const double range = p.x * p.x + p.y * p.y;
+                const double range = numeric::dot(p, p);
                 if (range < best.range) best = {range, id};
             };
             for (const part& p : parts)
@@ -26729,7 +26582,7 @@ class ping_tracer {
     /// `half_length`, of first order in the ray's width, does not hold there.
     INSONIFY_RARE extent perpendicular_echo(std::size_t k, float middle, const facet& part) const {
         const auto at_edge = [&](std::size_t edge) {
-            const ping_fan::direction d = fan_.at(static_cast<double>(fan_.first() + edge));
+            const numeric::sine_cosine d = fan_.at(static_cast<double>(fan_.first() + edge));
             const glm::dvec2 met =
                 part.at((part.x * d.cosine - part.p.down * d.sine) / (part.ddown * d.sine - part.dx * d.cosine));
             return static_cast<float>(axis_.position(met.x, met.y));
@@ -26753,9 +26606,7 @@ class ping_tracer {
     }
 
     /// The target between the sonar and a point of ray k, or no_shadow.
-    std::uint16_t occluder(std::size_t k, const glm::dvec2& p) const {
-        return hits_.occluder(k, numeric::square_root(p.x * p.x + p.y * p.y));
-    }
+    std::uint16_t occluder(std::size_t k, const glm::dvec2& p) const { return hits_.occluder(k, numeric::length(p)); }
     /// The caster of a shadow below the horizon: a target, if one occludes the point, or the seabed.
     std::uint16_t caster_below_horizon(const glm::dvec2& p) const {
         const std::uint16_t target = has_targets_ ? occluder(fan_.first_over(p.x, p.y), p) : labels::no_shadow;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <insonify/accuracy/seabed_probe.hpp>
+#include <insonify/core/linear.hpp>
 #include <insonify/geometry/cone.hpp>
 #include <insonify/geometry/cylinder.hpp>
 #include <insonify/geometry/sphere.hpp>
@@ -32,10 +33,7 @@ inline int max_subpixel_bits(const overhead& rig) {
 inline double largest_cot_elevation(const overhead_geometry& view) {
     if (!view.has_point_light()) return view.light().cot_elevation();
     const glm::dvec3 light = view.light_position();
-    const glm::dvec2 corner = view.half_extent(0);
-    return (numeric::square_root(light.x * light.x + light.y * light.y) +
-            numeric::square_root(corner.x * corner.x + corner.y * corner.y)) /
-           light.z;
+    return (numeric::length(glm::dvec2(light)) + numeric::length(view.half_extent(0))) / light.z;
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -88,7 +86,7 @@ struct settings {
         const double size = radius * static_cast<double>(placement.scale);
         const auto altitude = static_cast<double>(rig.altitude);
         const double below = (std::max)(altitude - at.z - size, 0.05 * altitude);
-        const double aside = numeric::square_root(at.x * at.x + at.y * at.y) + size;
+        const double aside = numeric::length(glm::dvec2(at)) + size;
         const double lean = numeric::square_root(1 + aside * aside / (below * below));
         const double seen = silhouette_error * view.ground_sampling() * below / altitude / lean;
         const double cast = shadow_edge_error * view.ground_sampling() * across_light(view, at, size);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <insonify/accuracy/metrics.hpp>
+#include <insonify/core/linear.hpp>
 #include <insonify/sonar/overhead/render.hpp>
 
 #include <array>
@@ -68,7 +69,7 @@ class seabed_probe {
                 glm::dvec2(in_picture.x * cosine - in_picture.y * sine, in_picture.x * sine + in_picture.y * cosine);
             if (view.has_point_light()) {  // the light keeps its position in the world
                 const glm::dvec3 light = view.light_position() - glm::dvec3(in_picture, 0);
-                const double level = numeric::square_root(light.x * light.x + light.y * light.y);
+                const double level = numeric::length(glm::dvec2(light));
                 chip.light_distance = static_cast<float>(numeric::square_root(level * level + light.z * light.z));
                 chip.grazing = (std::max)(static_cast<float>(numeric::atan2(light.z, level)), 1e-9f);
                 chip.light_azimuth = static_cast<float>(numeric::atan2(-light.y, -light.x));

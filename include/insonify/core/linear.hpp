@@ -6,6 +6,7 @@
 #include <insonify/core/numeric.hpp>
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -27,11 +28,27 @@ template <class T>
 INSONIFY_INLINE T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
+/// Dot product in the plane.
+template <class T>
+INSONIFY_INLINE T dot(const glm::vec<2, T>& a, const glm::vec<2, T>& b) {
+    return a.x * b.x + a.y * b.y;
+}
+
+/// Euclidean length.
+template <int L, class T>
+INSONIFY_INLINE T length(const glm::vec<L, T>& v) {
+    return square_root(dot(v, v));
+}
 
 /// Cross product.
 template <class T>
 INSONIFY_INLINE glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
     return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
+}
+/// Cross product in the plane: the signed area of the parallelogram, positive if `b` is counter-clockwise from `a`.
+template <class T>
+INSONIFY_INLINE T cross(const glm::vec<2, T>& a, const glm::vec<2, T>& b) {
+    return a.x * b.y - a.y * b.x;
 }
 
 /// Axis of the component of largest magnitude, the first of equal ones.

@@ -43,8 +43,8 @@ struct rayleigh {
     INSONIFY_MEMBER auto pass() const {
         detail::require_echo("rayleigh.of", of);
         detail::require_correlation("rayleigh.correlation", correlation);
-        return detail::echo_pass<detail::echo_draw::exponential>(detail::noise_stream::rayleigh, seed, frame,
-                                                                 {"rayleigh"}, of, correlation);
+        return detail::echo_pass<detail::echo_draw::by_looks>(detail::noise_stream::rayleigh, seed, frame, {"rayleigh"},
+                                                              of, correlation);
     }
 };
 

@@ -38,13 +38,12 @@ inline affine look_at(const camera& c) {
     detail::require_finite("camera.target", c.target);
     detail::require_finite("camera.up", c.up);
     const glm::dvec3 line = c.eye - c.target;
-    const double distance = numeric::square_root(numeric::dot(line, line)),
-                 length = numeric::square_root(numeric::dot(c.up, c.up));
+    const double distance = numeric::length(line), length = numeric::length(c.up);
     detail::require(distance > 0 && numeric::is_finite(distance), "distance from camera.eye to camera.target", distance,
                     "above 0, finite");
     detail::require(length > 0 && numeric::is_finite(length), "length of camera.up", length, "above 0, finite");
     const glm::dvec3 back = line / distance, across = numeric::cross(c.up, back);
-    const double width = numeric::square_root(numeric::dot(across, across)), sine = width / length;
+    const double width = numeric::length(across), sine = width / length;
     // Rounding leaves a sine of up to 1e-15 between parallel vectors.
     detail::require(sine > 1e-12, "sine of the angle from camera.up to the line of sight", sine, "above 1e-12");
     const glm::dvec3 right = across / width, up = numeric::cross(back, right);

@@ -31,7 +31,7 @@ INSONIFY_FUNCTION mesh to_mesh(const cone& shape) {
     detail::require_positive("cone.radius", shape.radius);
     detail::require_positive("cone.height", shape.height);
     detail::require_not_negative("cone.top_radius", shape.top_radius);
-    detail::require_revolved_segments("cone.segments", shape.segments);
+    detail::require_range("cone.segments", shape.segments, 3, 1 << 20, "3 to 2^20");
     const auto radius = static_cast<double>(shape.radius);
     const auto height = static_cast<double>(shape.height);
     const auto top = static_cast<double>(shape.top_radius);

@@ -47,7 +47,7 @@ inline mesh with_creases(const mesh& m, float angle = 0.7f) {
         const glm::dvec3 p[3] = {glm::dvec3(m.positions[m.triangles[t].x]), glm::dvec3(m.positions[m.triangles[t].y]),
                                  glm::dvec3(m.positions[m.triangles[t].z])};
         const glm::dvec3 area = numeric::cross(p[1] - p[0], p[2] - p[0]);
-        const double length = numeric::square_root(numeric::dot(area, area));
+        const double length = numeric::length(area);
         if (length > 0 && numeric::is_finite(length)) facets[t] = area / length;
         for (int i = 0; i < 3; ++i) {
             const double turn = numeric::atan2(length, numeric::dot(p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]));
@@ -71,7 +71,7 @@ inline mesh with_creases(const mesh& m, float angle = 0.7f) {
             glm::dvec3 sum(0);
             for (std::size_t j = begin; j < end; ++j)
                 if (i == j || numeric::dot(facet, facets[corners[j].triangle]) > smoothest) sum += corners[j].weighted;
-            const double length = numeric::square_root(numeric::dot(sum, sum));
+            const double length = numeric::length(sum);
             const glm::vec3 normal =
                 facet != glm::dvec3(0) && length > 0 ? glm::vec3(sum / length) : glm::vec3(0, 0, 1);
             std::size_t vertex = fan;

@@ -39,7 +39,7 @@ INSONIFY_FUNCTION mesh to_mesh(const capsule& shape);
 INSONIFY_FUNCTION mesh to_mesh(const cylinder& shape) {
     detail::require_positive("cylinder.radius", shape.radius);
     detail::require_positive("cylinder.length", shape.length);
-    detail::require_revolved_segments("cylinder.segments", shape.segments);
+    detail::require_range("cylinder.segments", shape.segments, 3, 1 << 20, "3 to 2^20");
     const auto radius = static_cast<double>(shape.radius);
     const double half = 0.5 * static_cast<double>(shape.length);
     const std::array<profile_point, 6> profile = {{{0, -half, 0, -1},
@@ -55,7 +55,7 @@ INSONIFY_FUNCTION mesh to_mesh(const capsule& shape) {
     detail::require_positive("capsule.radius", shape.radius);
     detail::require(numeric::is_finite(shape.length) && shape.length >= 2 * shape.radius, "capsule.length",
                     shape.length, "finite and at least twice the radius");
-    detail::require_round_segments("capsule.segments", shape.segments);
+    detail::require_range("capsule.segments", shape.segments, 3, 8192, "3 to 8192");
     const auto radius = static_cast<double>(shape.radius);
     const double straight = 0.5 * static_cast<double>(shape.length) - radius;
     const int steps = (shape.segments + 3) / 4;

@@ -33,7 +33,7 @@ inline std::vector<glm::vec3> smooth_normals(const mesh& m) {
         const glm::dvec3 corners[3] = {glm::dvec3(m.positions[t.x]), glm::dvec3(m.positions[t.y]),
                                        glm::dvec3(m.positions[t.z])};
         const glm::dvec3 area = numeric::cross(corners[1] - corners[0], corners[2] - corners[0]);
-        const double length = numeric::square_root(numeric::dot(area, area));
+        const double length = numeric::length(area);
         if (!(length > 0 && numeric::is_finite(length))) continue;
         for (int i = 0; i < 3; ++i) {
             const glm::dvec3 a = corners[(i + 1) % 3] - corners[i];
@@ -44,7 +44,7 @@ inline std::vector<glm::vec3> smooth_normals(const mesh& m) {
 
     std::vector<glm::vec3> normals(sums.size());
     for (std::size_t i = 0; i < sums.size(); ++i) {
-        const double length = numeric::square_root(numeric::dot(sums[i], sums[i]));
+        const double length = numeric::length(sums[i]);
         normals[i] = length > 0 ? glm::vec3(sums[i] / length) : glm::vec3(0, 0, 1);
     }
     return normals;

@@ -242,7 +242,7 @@ class obj_reader {
                 const auto [normal, texture] = key(*at);
                 if (at == first || key(*at) != key(*(at - 1))) {
                     const glm::dvec3 n = normal == none ? glm::dvec3(0) : glm::dvec3(normals_[normal]);
-                    const double length = numeric::square_root(numeric::dot(n, n));
+                    const double length = numeric::length(n);
                     complete = complete && length > 0;
                     out.positions.push_back(positions_[p]);
                     out.normals.push_back(length > 0 ? glm::vec3(n / length) : glm::vec3(0));

@@ -5,7 +5,7 @@
 #include <insonify/geometry/mesh.hpp>
 
 #if INSONIFY_BODIES
-#include <insonify/core/numeric.hpp>
+#include <insonify/core/linear.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -94,19 +94,20 @@ INSONIFY_FUNCTION std::optional<regular_grid> regular_grid_of(const mesh_view& m
     const auto place = [&](std::size_t i) { return glm::dvec2(m.positions[i].x, m.positions[i].y); };
     const glm::dvec2 origin = place(0), right = (place(columns - 1) - origin) / static_cast<double>(columns - 1),
                      up = (place((rows - 1) * columns) - origin) / static_cast<double>(rows - 1);
-    const double area = right.x * up.y - right.y * up.x;
+    const double area = numeric::cross(right, up);
     if (!(cut->is_mirrored ? area < 0 : area > 0)) return std::nullopt;  // written so that NaN doesn't pass
-    const auto square = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
     // Metres between the lines of the lattice. Of an oblique one this is less than the length of a step.
-    const double step = numeric::abs(area) / numeric::square_root((std::max)(square(right), square(up)));
-    const double farthest_accepted = square({step * tolerance, 0});
+    const double step =
+        numeric::abs(area) / numeric::square_root((std::max)(numeric::dot(right, right), numeric::dot(up, up)));
+    const double farthest_accepted = step * tolerance * (step * tolerance);
 
     double farthest = 0;  // squared
     for (std::size_t j = 0; j < rows; ++j) {
         const glm::dvec2 start = origin + static_cast<double>(j) * up;
         for (std::size_t i = 0; i < columns; ++i) {
             const std::size_t vertex = j * columns + i;
-            const double squared = square(place(vertex) - (start + static_cast<double>(i) * right));
+            const glm::dvec2 off = place(vertex) - (start + static_cast<double>(i) * right);
+            const double squared = numeric::dot(off, off);
             farthest = (std::max)(farthest, squared);
             // Written so that NaN doesn't pass.
             if (!(squared <= farthest_accepted && numeric::is_finite(m.positions[vertex].z))) return std::nullopt;

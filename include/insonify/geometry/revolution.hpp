@@ -63,15 +63,6 @@ inline void append_arc(dynamic_array<profile_point>& profile, double radius, dou
     }
 }
 
-/// Bounds the segments of a surface of revolution.
-inline void require_revolved_segments(const char* name, int segments) {
-    require(segments >= 3 && segments <= (1 << 20), name, segments, "3 to 2^20");
-}
-
-/// Bounds the segments of a grid with half as many rings, so that the mesh has less than 2^26 triangles.
-inline void require_round_segments(const char* name, int segments) {
-    require(segments >= 3 && segments <= 8192, name, segments, "3 to 8192");
-}
 #endif
 
 /// Distance from the centre of a unit ball of `segments` by `rings` to the nearest of its faces, which is at the
@@ -119,7 +110,7 @@ INSONIFY_FUNCTION mesh revolve(std::span<const profile_point> profile, int segme
 
 #if INSONIFY_BODIES
 INSONIFY_FUNCTION mesh revolve(std::span<const profile_point> profile, int segments, axis around) {
-    detail::require_revolved_segments("segments", segments);
+    detail::require_range("segments", segments, 3, 1 << 20, "3 to 2^20");
     const auto count = static_cast<std::uint32_t>(segments);
     detail::require(profile.size() <= (std::size_t{1} << 28) / count, "profile.size()", profile.size(),
                     "at most 2^28 vertices in all");

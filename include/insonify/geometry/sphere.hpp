@@ -66,7 +66,7 @@ INSONIFY_FUNCTION mesh to_mesh(const hemisphere& shape);
 #if INSONIFY_BODIES
 INSONIFY_FUNCTION mesh to_mesh(const sphere& shape) {
     detail::require_positive("sphere.radius", shape.radius);
-    detail::require_round_segments("sphere.segments", shape.segments);
+    detail::require_range("sphere.segments", shape.segments, 3, 8192, "3 to 8192");
     detail::dynamic_array<profile_point> profile;
     detail::append_arc(profile, static_cast<double>(shape.radius), 0.0, 0.0, 0.5, (shape.segments + 1) / 2);
     return detail::stretched_round(profile, "sphere.aspect", shape.aspect, shape.segments);
@@ -74,7 +74,7 @@ INSONIFY_FUNCTION mesh to_mesh(const sphere& shape) {
 
 INSONIFY_FUNCTION mesh to_mesh(const hemisphere& shape) {
     detail::require_positive("hemisphere.radius", shape.radius);
-    detail::require_round_segments("hemisphere.segments", shape.segments);
+    detail::require_range("hemisphere.segments", shape.segments, 3, 8192, "3 to 8192");
     const auto radius = static_cast<double>(shape.radius);
     detail::dynamic_array<profile_point> profile = {{0, 0, 0, -1}, {radius, 0, 0, -1}};
     detail::append_arc(profile, radius, 0.0, 0.25, 0.5, (shape.segments + 3) / 4);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
+#include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/geometry/mesh.hpp>
 #if INSONIFY_BODIES
@@ -92,8 +93,8 @@ inline bool is_convex_loop(const mesh& m, const dynamic_array<std::pair<std::uin
     for (std::uint32_t at = start; count == 0 || at != start; at = after[at], ++count) {
         if (count > edges.size() || after[at] == 0xFFFFFFFFu || after[after[at]] == 0xFFFFFFFFu) return false;
         const glm::dvec2 now = way(at), then = way(after[at]);
-        const double turn = now.x * then.y - now.y * then.x;
-        if (turn < 0 || (turn == 0 && now.x * then.x + now.y * then.y <= 0)) return false;
+        const double turn = numeric::cross(now, then);
+        if (turn < 0 || (turn == 0 && numeric::dot(now, then) <= 0)) return false;
         turns += now.y < 0 && then.y >= 0;
     }
     return count == edges.size() && turns == 1;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <insonify/core/image_view.hpp>
-#include <insonify/raster/draw_options.hpp>
 
 namespace insonify {
 inline namespace INSONIFY_ABI {

@@ -67,24 +67,12 @@ struct no_varyings {};
 
 namespace detail::inline INSONIFY_FLAGS {
 
-template <vertex_shader S>
-struct shader_varyings {
-    using type = no_varyings;
-};
-template <varying_shader S>
-struct shader_varyings<S> {
-    using type = std::remove_cvref_t<decltype(std::declval<const S&>()(std::declval<const vertex&>()).varyings)>;
-};
-
-inline glm::vec4 position_of(const glm::vec4& clip) {
-    return clip;
-}
 template <class Placed>
-    requires requires(const Placed& placed) {
-        placed.clip;
-    }
 INSONIFY_INLINE glm::vec4 position_of(const Placed& placed) {
-    return placed.clip;
+    if constexpr (requires { placed.clip; })
+        return placed.clip;
+    else
+        return placed;
 }
 
 template <vertex_shader S>
@@ -118,7 +106,7 @@ INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::dvec3&
 
 /// The varyings of a vertex shader; no_varyings if it has none.
 template <vertex_shader S>
-using varyings_of = typename detail::shader_varyings<S>::type;
+using varyings_of = decltype(detail::varyings_at(std::declval<const S&>(), std::declval<const vertex&>()));
 
 /// Input of a fragment shader: one visible pixel of one triangle.
 template <class Varyings>

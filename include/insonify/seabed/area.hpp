@@ -2,6 +2,7 @@
 #pragma once
 
 #include <insonify/core/image.hpp>
+#include <insonify/core/linear.hpp>
 #include <insonify/seabed/detail/noise.hpp>
 
 #include <utility>
@@ -63,10 +64,10 @@ namespace detail::inline INSONIFY_FLAGS {
 /// Distance from p to the segment from a to b, squared.
 inline double square_distance(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
     const glm::dvec2 ab = b - a, ap = p - a;
-    const double square = ab.x * ab.x + ab.y * ab.y;
-    const double t = square > 0 ? (std::min)((std::max)((ap.x * ab.x + ap.y * ab.y) / square, 0.0), 1.0) : 0.0;
-    const double x = ap.x - t * ab.x, y = ap.y - t * ab.y;
-    return x * x + y * y;
+    const double square = numeric::dot(ab, ab);
+    const double t = square > 0 ? (std::min)((std::max)(numeric::dot(ap, ab) / square, 0.0), 1.0) : 0.0;
+    const glm::dvec2 offset(ap.x - t * ab.x, ap.y - t * ab.y);
+    return numeric::dot(offset, offset);
 }
 inline double distance_to_path(const glm::dvec2& p, const std::vector<glm::dvec2>& path) {
     double square = square_distance(p, path[0], path[0]);
@@ -76,8 +77,7 @@ inline double distance_to_path(const glm::dvec2& p, const std::vector<glm::dvec2
 
 /// Signed distance of a position from the border of an area, metres, positive inside.
 inline double signed_distance(const disc& d, const glm::dvec2& p) {
-    const glm::dvec2 offset = p - d.centre;
-    return static_cast<double>(d.radius) - numeric::square_root(offset.x * offset.x + offset.y * offset.y);
+    return static_cast<double>(d.radius) - numeric::length(p - d.centre);
 }
 inline double signed_distance(const band& b, const glm::dvec2& p) {
     return 0.5 * static_cast<double>(b.width) - distance_to_path(p, b.path);
@@ -142,32 +142,18 @@ inline image<float> border_distances(const image<float>& coverage) {
         }
     return distances;
 }
-/// A stencil's signed distances from its border.
-struct distance_map {
-    image<float> distances;  ///< in pixels, see border_distances
-    glm::dvec2 origin{0};    ///< of pixel (0, 0), metres
-    double spacing = 1;      ///< metres
-
-    distance_map() = default;
-    explicit distance_map(const stencil& s)
-        : distances(border_distances(s.coverage)), origin(s.origin), spacing(s.spacing) {}
-};
-inline double signed_distance(const distance_map& m, const glm::dvec2& p) {
-    struct sample {
-        int lower, upper;
-        double fraction;
+/// `coverage` holds border_distances.
+inline double signed_distance(const stencil& s, const glm::dvec2& p) {
+    const image<float>& distances = s.coverage;
+    const int right = distances.width() - 1, upper = distances.height() - 1;
+    const grid_coordinate x((p.x - s.origin.x) / s.spacing, (std::max)(right, 1)),
+        y((p.y - s.origin.y) / s.spacing, (std::max)(upper, 1));
+    const auto value = [&](int i, int j) {
+        return static_cast<double>(distances((std::min)(x.cell + i, right), (std::min)(y.cell + j, upper)));
     };
-    const auto axis = [](double u, int pixels) {
-        const double clamped = u > 0 ? (std::min)(u, static_cast<double>(pixels - 1)) : 0.0;
-        const int cell = (std::min)(static_cast<int>(clamped), (std::max)(pixels - 2, 0));
-        return sample{cell, (std::min)(cell + 1, pixels - 1), clamped - cell};
-    };
-    const auto [x, right, u] = axis((p.x - m.origin.x) / m.spacing, m.distances.width());
-    const auto [y, up, v] = axis((p.y - m.origin.y) / m.spacing, m.distances.height());
-    const auto value = [&](int i, int j) { return static_cast<double>(m.distances(i, j)); };
-    const double low = value(x, y) + u * (value(right, y) - value(x, y));
-    const double high = value(x, up) + u * (value(right, up) - value(x, up));
-    return (low + v * (high - low)) * m.spacing;
+    const double low = value(0, 0) + x.across * (value(1, 0) - value(0, 0));
+    const double high = value(0, 1) + x.across * (value(1, 1) - value(0, 1));
+    return (low + y.across * (high - low)) * s.spacing;
 }
 
 inline void validate(const disc& d) {
@@ -215,10 +201,7 @@ class area_sampler {
                 if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(shape)>, patches>) validate(shape);
             },
             shape_);
-        if (auto* const s = std::get_if<stencil>(&shape_)) {
-            stencil_distances_ = distance_map(*s);
-            s->coverage = {};  // no longer needed
-        }
+        if (auto* const s = std::get_if<stencil>(&shape_)) s->coverage = border_distances(s->coverage);
     }
 
     /// Writes the signed distances of a stretch's positions, metres, positive inside.
@@ -232,8 +215,6 @@ class area_sampler {
                     const glm::dvec2 p(part.x[i], part.y);
                     if constexpr (std::is_same_v<shape_type, patches>)
                         values[i] = offset_ + scale_ * values[i];
-                    else if constexpr (std::is_same_v<shape_type, stencil>)
-                        values[i] += static_cast<float>(signed_distance(stencil_distances_, p));
                     else
                         values[i] += static_cast<float>(signed_distance(shape, p));
                 }
@@ -256,8 +237,7 @@ class area_sampler {
         return {.rms = ragged, .longest = longest, .shortest = border, .exponent = 3.6f};
     }
 
-    area shape_;
-    distance_map stencil_distances_;  ///< if the area is a stencil
+    area shape_;  ///< a stencil's coverage is replaced by its border_distances
     power_law_noise noise_;
     float scale_ = 1, offset_ = 0;
 };

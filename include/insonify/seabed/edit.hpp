@@ -2,6 +2,7 @@
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
+#include <insonify/core/linear.hpp>
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/seabed/area.hpp>
 #include <insonify/seabed/moat.hpp>
@@ -148,9 +149,8 @@ inline float height_after(const flatten& e, const glm::dvec2& p, float height) {
 }
 inline float height_after(const ramp& e, const glm::dvec2& p, float height) {
     const glm::dvec2 way = e.to - e.from, offset = p - e.from;
-    const double square = way.x * way.x + way.y * way.y, span = numeric::square_root(square);
-    const double t = (way.x * offset.x + way.y * offset.y) / square;
-    const double side = (way.x * offset.y - way.y * offset.x) / span;
+    const double span = numeric::length(way), t = numeric::dot(way, offset) / numeric::dot(way, way);
+    const double side = numeric::cross(way, offset) / span;
     // Beyond its ends the ramp is level and fades within a quarter of its width.
     const double past = (t < 0 ? -t : t > 1 ? t - 1 : 0.0) * span;
     const float weight = plateau(static_cast<float>(2 * numeric::abs(side)) / e.width) *
@@ -164,9 +164,9 @@ inline float height_after(const stamp& e, const glm::dvec2& p, float height) {
     double before = 0, nearest = square_distance(p, e.path[0], e.path[0]);
     for (std::size_t i = 1; i < e.path.size(); ++i) {
         const glm::dvec2 &a = e.path[i - 1], way = e.path[i] - a, offset = p - a;
-        const double square = way.x * way.x + way.y * way.y, span = numeric::square_root(square);
+        const double span = numeric::length(way);
         if (span == 0) continue;
-        const double along = before + (way.x * offset.x + way.y * offset.y) / span;
+        const double along = before + numeric::dot(way, offset) / span;
         const double last = static_cast<double>(numeric::floor_to_int((before + span) / every)) * every;
         const double first = -static_cast<double>(numeric::floor_to_int(-before / every)) * every;
         const double mark = static_cast<double>(numeric::floor_to_int(along / every + 0.5)) * every;

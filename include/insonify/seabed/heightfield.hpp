@@ -4,6 +4,7 @@
 #include <insonify/core/image.hpp>
 #include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
+#include <insonify/seabed/detail/interpolation.hpp>
 #include <insonify/seabed/model.hpp>
 
 #include <array>
@@ -18,17 +19,6 @@ inline namespace INSONIFY_ABI {
 namespace seabed {
 
 namespace detail::inline INSONIFY_FLAGS {
-
-/// A coordinate in cells, clamped to the grid: the cell's index and the fraction within it, in [0, 1]. NaN counts as 0.
-struct grid_coordinate {
-    int cell;
-    double across;
-    grid_coordinate(double c, int cells) {
-        const double clamped = c > 0 ? (std::min)(c, static_cast<double>(cells)) : 0.0;
-        cell = (std::min)(static_cast<int>(clamped), cells - 1);
-        across = clamped - cell;
-    }
-};
 
 /// The plane at a point: its height, and its rise per cell in x and in y, metres.
 struct facet {
@@ -86,7 +76,7 @@ struct heightfield {
     INSONIFY_TAGGED glm::vec3 normal_at(double x, double y) const {
         const detail::facet f = facet_at(x, y);
         const glm::dvec3 normal(-f.rise_x, -f.rise_y, spacing);
-        return glm::vec3(normal / numeric::square_root(numeric::dot(normal, normal)));
+        return glm::vec3(normal / numeric::length(normal));
     }
 
     /// Type at the nearest vertex.

@@ -7,6 +7,7 @@
 // Marine Pollution Bulletin 62, 2011).
 #pragma once
 
+#include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/seabed/area.hpp>
 
@@ -47,12 +48,9 @@ inline void validate(const moat& m) {
 /// Upper bound of a moat's distance from the corners of its outline.
 inline double moat_reach(const moat& m) {
     // The tail is as wide as the outline, whose corners may all lie to one side of it.
-    double square = 0;
-    for (const glm::dvec2& p : m.outline) {
-        const glm::dvec2 offset = p - m.outline.front();
-        square = (std::max)(square, offset.x * offset.x + offset.y * offset.y);
-    }
-    return numeric::square_root(square) + static_cast<double>(m.width) + static_cast<double>(m.tail);
+    double reach = 0;
+    for (const glm::dvec2& p : m.outline) reach = (std::max)(reach, numeric::length(p - m.outline.front()));
+    return reach + static_cast<double>(m.width) + static_cast<double>(m.tail);
 }
 
 /// Change of the ground's height at a position, metres.
@@ -75,7 +73,7 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
 
     const double width = static_cast<double>(m.width), outside = -signed_distance(m.outline, p);
     const glm::dvec2 at = to_current_frame(p);
-    const double away = numeric::square_root(at.x * at.x + at.y * at.y);
+    const double away = numeric::length(at);
     const double facing = away > 0 ? 0.75 - 0.25 * at.x / away : 0.75;
     double change =
         -static_cast<double>(m.depth) * facing * biweight(outside > 0 ? outside / width : 2 * outside / width);

@@ -15,14 +15,11 @@ namespace seabed {
 struct none {
     static constexpr type kind = type::sand;
 
-    /// Makes this a model; `any` never evaluates it.
-    struct sampler {
-        void row(const scanline&, std::span<float> heights) const {
-            std::fill(heights.begin(), heights.end(), std::numeric_limits<float>::quiet_NaN());
-        }
-        height_range range() const { return {}; }
-    };
-    INSONIFY_MEMBER sampler prepare() const { return {}; }
+    // These make it a model; `any` never evaluates it.
+    INSONIFY_MEMBER void row(const scanline&, std::span<float> heights) const {
+        std::fill(heights.begin(), heights.end(), std::numeric_limits<float>::quiet_NaN());
+    }
+    INSONIFY_MEMBER height_range range() const { return {}; }
 };
 
 }  // namespace seabed

@@ -50,6 +50,9 @@ class exact_occlusion {
             add_point_planes(std::get<point_light>(light), where.box, side, ex);
     }
 
+    /// See light_rays::toward.
+    glm::dvec3 toward(const glm::dvec3& p) const { return rays_.toward(p); }
+
     /// See collective_occlusion.
     void screen(const points& at, const results& into) const {
         std::fill(into.caster.begin(), into.caster.end(), invalid_id);
@@ -74,7 +77,7 @@ class exact_occlusion {
         insonify::detail::uninitialized_array<decision> decisions(c.mesh.triangles.size(),
                                                                   insonify::detail::memory_of(ex));
         // Triangles that other casters may shade are left to the test of points.
-        detail::dynamic_array<std::pair<glm::dvec2, glm::dvec2>> shared;
+        detail::dynamic_array<insonify::detail::ground_rect> shared;
         const detail::tiled_plane& plane = planes_.front();
         const detail::mesh_plane_intercepts intercepts(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
@@ -161,8 +164,7 @@ class exact_occlusion {
         const auto decide = [&](std::uint32_t triangle) {
             return !(is_own && at.triangle[i] == triangle) && is_blocked_by(number, triangle, at[i]);
         };
-        return is_own && at.face_light ? grids_[number]->blocks_own_point(at[i], decide)
-                                       : grids_[number]->blocks(at[i], decide);
+        return grids_[number]->blocks(at[i], is_own && at.face_light, decide);
     }
     bool is_blocked_by(std::uint32_t number, std::uint32_t triangle, const glm::dvec3& p) const {
         const caster& c = casters_[number];

@@ -87,8 +87,8 @@ inline glm::dvec3 toward_disc(const glm::dvec3& to_light, const glm::dvec2& trav
 /// A point of a disc of light that faces the origin.
 /// @param disc_offset  from the centre, across and up, over the centre's distance from the origin
 inline glm::dvec3 point_of_disc(const glm::dvec3& centre, const glm::dvec2& disc_offset) {
-    const double distance = numeric::square_root(numeric::dot(centre, centre));
-    const double level = numeric::square_root(centre.x * centre.x + centre.y * centre.y);
+    const double distance = numeric::length(centre);
+    const double level = numeric::length(glm::dvec2(centre));
     const glm::dvec2 travel = level > 0 ? glm::dvec2(-centre.x / level, -centre.y / level) : glm::dvec2(1, 0);
     return distance > 0 ? distance * toward_disc(centre / distance, travel, disc_offset) : centre;
 }

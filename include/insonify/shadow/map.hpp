@@ -105,8 +105,7 @@ class map_occlusion {
     static light_frame parallel(const any_light& light) {
         if (const auto* source = std::get_if<point_light>(&light)) {
             const glm::dvec3& p = source->position;
-            insonify::detail::refuse("the distance of the light (overhead.light_distance)",
-                                     numeric::square_root(numeric::dot(p, p)),
+            insonify::detail::refuse("the distance of the light (overhead.light_distance)", numeric::length(p),
                                      "infinite for shadow maps; shadow::exact and shadow::penumbra take a point_light");
         }
         return light_frame(std::get<directional_light>(light));

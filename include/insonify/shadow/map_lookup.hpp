@@ -46,59 +46,28 @@ struct receiver_plane {
     }
 };
 
-}  // namespace INSONIFY_FLAGS
-
-namespace detail::inline INSONIFY_FLAGS {
-
-/// A receiver in the units of one map.
-class map_receiver {
-  public:
-    map_receiver(const height_map& map, const receiver_plane& r)
-        : map_(map), at_(map.on_map(r.uvz)), slope_u_(map.on_map(r.slope_u)), slope_v_(map.on_map(r.slope_v)) {
-        bias_ = 1e-6f + numeric::abs(slope_u_) + numeric::abs(slope_v_);  // heights are rounded to 1e-7
-    }
-
-    /// Whether no texel within `radius` of the nearest one is on the map: nothing can be in the way.
-    bool is_beyond(int radius) const {
-        const auto reach = static_cast<float>(radius);
-        return !(at_.x >= -reach && at_.y >= -reach && at_.x < static_cast<float>(map_.columns()) + reach &&
-                 at_.y < static_cast<float>(map_.rows()) + reach);
-    }
-
-    /// Number of the (2 radius + 1)^2 rays around the point that no caster blocks. @pre !is_beyond(radius)
-    int open_rays(int radius) const {
-        const int column = static_cast<int>(at_.x + 64) - 64, row = static_cast<int>(at_.y + 64) - 64;  // rounds down
-        int open = 0;
-        for (int j = row - radius; j <= row + radius; ++j)
-            for (int i = column - radius; i <= column + radius; ++i) open += is_open(i, j) ? 1 : 0;
-        return open;
-    }
-
-  private:
-    bool is_open(int column, int row) const {
-        if (column < 0 || row < 0 || column >= map_.columns() || row >= map_.rows()) return true;
-        const float plane = at_.z + slope_u_ * (static_cast<float>(column) + 0.5f - at_.x) +
-                            slope_v_ * (static_cast<float>(row) + 0.5f - at_.y);
-        return map_(column, row) <= plane + bias_;
-    }
-
-    const height_map& map_;
-    glm::vec3 at_;
-    float slope_u_, slope_v_, bias_;
-};
-
-}  // namespace detail::inline INSONIFY_FLAGS
-
-inline namespace INSONIFY_FLAGS {
-
 /// Share of the light that reaches a point, averaged over (2 radius + 1)^2 texels; surfaces that face away count as
 /// level.
 /// @param radius  texels; 0 is the nearest texel alone. @pre 0 to 8
 inline float lit(const height_map& map, const receiver_plane& r, int radius) {
-    const detail::map_receiver at(map, r);
-    if (at.is_beyond(radius)) return 1;
+    const glm::vec3 at = map.on_map(r.uvz);
+    const float slope_u = map.on_map(r.slope_u), slope_v = map.on_map(r.slope_v), reach = static_cast<float>(radius);
+    const float bias = 1e-6f + numeric::abs(slope_u) + numeric::abs(slope_v);  // heights are rounded to 1e-7
+    // No texel within `radius` of the nearest one is on the map: nothing can be in the way.
+    if (!(at.x >= -reach && at.y >= -reach && at.x < static_cast<float>(map.columns()) + reach &&
+          at.y < static_cast<float>(map.rows()) + reach))
+        return 1;
+    const int column = static_cast<int>(at.x + 64) - 64, row = static_cast<int>(at.y + 64) - 64;  // rounds down
+    int open = 0;
+    for (int j = row - radius; j <= row + radius; ++j)
+        for (int i = column - radius; i <= column + radius; ++i) {
+            const bool is_on_map = i >= 0 && j >= 0 && i < map.columns() && j < map.rows();
+            const float plane = at.z + slope_u * (static_cast<float>(i) + 0.5f - at.x) +
+                                slope_v * (static_cast<float>(j) + 0.5f - at.y);
+            open += !is_on_map || map(i, j) <= plane + bias ? 1 : 0;
+        }
     const int rays = (2 * radius + 1) * (2 * radius + 1);
-    return static_cast<float>(at.open_rays(radius)) / static_cast<float>(rays);
+    return static_cast<float>(open) / static_cast<float>(rays);
 }
 
 }  // namespace INSONIFY_FLAGS

@@ -33,35 +33,24 @@ class penumbra_occlusion {
             const double share = i == 0 ? 0 : numeric::square_root((i + 0.5) / samples);
             const auto [sine, cosine] = numeric::sin_cos_turns(0.6180339887498949 * i);
             const auto at = sample_of(light, radius * share * glm::dvec2(cosine, sine));
-            if (at) lights_.push_back({exact_occlusion(casters, *at, bounds, ex), *at});
+            if (at) lights_.push_back({casters, *at, bounds, ex});
         }
     }
 
     /// See occlusion.
     void test(const points& at, const results& into) const {
-        lights_.front().blocked.test(at, into);
+        lights_.front().test(at, into);
         insonify::detail::uninitialized_array<float> lit(at.size());
         insonify::detail::uninitialized_array<std::uint32_t> blocking(at.size());
         const results one{lit, blocking};
         for (std::size_t i = 1; i < lights_.size(); ++i) {
-            lights_[i].blocked.test(at, one);
-            add(i, at, one, into);
+            lights_[i].test(at, one);
+            add(lights_[i], at, one, into);
         }
         for (float& lit_sum : into.lit) lit_sum /= static_cast<float>(samples_);
     }
 
   private:
-    /// One point of the light, above the horizon.
-    struct sample {
-        exact_occlusion blocked;
-        any_light light;
-
-        glm::dvec3 toward(const glm::dvec3& p) const {
-            if (const auto* source = std::get_if<point_light>(&light)) return source->position - p;
-            return light_frame(std::get<directional_light>(light)).to_light();
-        }
-    };
-
     /// A point of the light, or none below the horizon.
     /// @param disc_offset  from the disc's centre, across and up, divided by the light's distance
     static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& disc_offset) {
@@ -70,32 +59,25 @@ class penumbra_occlusion {
             return point_light{point_of_disc(source->position, disc_offset)};
         const light_frame frame(std::get<directional_light>(light));
         const glm::dvec3 d = toward_disc(frame.to_light(), frame.travel(), disc_offset);
-        const double elevation = numeric::atan2(d.z, numeric::square_root(d.x * d.x + d.y * d.y));
+        const double elevation = numeric::atan2(d.z, numeric::length(glm::dvec2(d)));
         if (!(elevation >= directional_light::lowest_elevation)) return std::nullopt;
         return directional_light{numeric::atan2(-d.y, -d.x), elevation};
     }
 
     /// Adds the light of one sample to the points whose facets show it and the light's centre the same side.
-    void add(std::size_t number, const points& at, const results& one, const results& into) const {
-        const sample &middle = lights_.front(), &here = lights_[number];
-        glm::dvec3 to_middle = middle.toward({}), to_here = here.toward({});
-        const bool is_point_light = std::holds_alternative<point_light>(middle.light);
+    void add(const exact_occlusion& here, const points& at, const results& one, const results& into) const {
         for (std::size_t i = 0; i < at.size(); ++i) {
             if (!(one.lit[i] > 0)) continue;
             const glm::dvec3 facet = facet_of(casters_, at, i);
-            if (is_point_light) {
-                to_middle = middle.toward(at[i]);
-                to_here = here.toward(at[i]);
-            }
-            const bool faces =
-                facet == glm::dvec3(0) || (numeric::dot(facet, to_here) > 0) == (numeric::dot(facet, to_middle) > 0);
+            const bool faces = facet == glm::dvec3(0) || (numeric::dot(facet, here.toward(at[i])) > 0) ==
+                                                             (numeric::dot(facet, lights_.front().toward(at[i])) > 0);
             if (faces) into.lit[i] += one.lit[i];
         }
     }
 
     detail::dynamic_array<caster> casters_;
     int samples_;
-    detail::dynamic_array<sample> lights_;  ///< the middle first
+    detail::dynamic_array<exact_occlusion> lights_;  ///< the middle first
 };
 
 }  // namespace INSONIFY_FLAGS

@@ -131,15 +131,15 @@ TEST_CASE("Few points of a seabed need a triangle test, and all agree with rays"
                                            bottom.surface.corner(triangle, 2), p);
                     };
                 };
-                wrong += caster.blocks_own_point(own[i], decide_among(own[i], own.triangle(i))) !=
+                wrong += caster.blocks(own[i], true, decide_among(own[i], own.triangle(i))) !=
                                  bottom.surface.is_blocked(own[i], own.triangle(i))
                              ? 1
                              : 0;
                 const glm::dvec3 above = own[i] + glm::dvec3(0, 0, 0.01 + 0.0002 * static_cast<double>(i));
-                wrong +=
-                    caster.blocks(above, decide_among(above, shadow::invalid_id)) != bottom.surface.is_blocked(above)
-                        ? 1
-                        : 0;
+                wrong += caster.blocks(above, false, decide_among(above, shadow::invalid_id)) !=
+                                 bottom.surface.is_blocked(above)
+                             ? 1
+                             : 0;
             }
             CHECK(wrong == 0);
             INFO(tested);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
-#include <insonify/core/numeric.hpp>
+#include <insonify/core/detail/portable.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,6 @@
 // Convolves rows of noise with symmetric taps (see correlation.hpp), along a row or across rows.
 #pragma once
 
-#include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/lanes.hpp>
 
 #include <cstddef>

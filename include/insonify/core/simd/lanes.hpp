@@ -227,6 +227,15 @@ INSONIFY_INLINE void unroll(const Body& body) {
     (std::make_integer_sequence<int, Count>{});
 }
 
+/// The least and the largest of three values, lane by lane.
+template <class Lanes>
+INSONIFY_INLINE void range_of(Lanes& low, Lanes& high, const Lanes& a, const Lanes& b, const Lanes& c) {
+    low = a < b ? a : b;
+    low = low < c ? low : c;
+    high = a > b ? a : b;
+    high = high > c ? high : c;
+}
+
 /// 0, 1, ... N - 1.
 template <class T, int N>
 INSONIFY_INLINE void iota(lanes<T, N>& into) {

@@ -52,7 +52,7 @@ struct echo_factor {
 
 /// How intensities are drawn; `by_looks` is exponential for one look, else gamma. The choice never depends on whether a
 /// parameter is a map, so that a map of equal values gives the same noise as that value.
-enum class echo_draw { exponential, gamma, by_looks, rice };
+enum class echo_draw { gamma, by_looks, rice };
 
 /// Statistics of an intensity: the three numbers of a speckle_law, by pixel.
 struct echo_statistics {
@@ -131,14 +131,10 @@ class echo_law {
             average_looks(buffer, fields_.is_correlated() ? static_cast<int>(statistics_.looks.value()) : 1, run);
             return buffer;
         }
-        if constexpr (Draw == echo_draw::exponential || Draw == echo_draw::by_looks) {
-            if (Draw == echo_draw::exponential || statistics_.looks.value() == 1)
-                return white_draws<exponential_draws>(buffer, noise_, 0, run);
-        }
-        if constexpr (Draw == echo_draw::gamma || Draw == echo_draw::by_looks) {
-            std::fill_n(buffer, run.count, 1.0f);
-            gamma(buffer, statistics_.looks, noise_, run);
-        }
+        if (Draw == echo_draw::by_looks && statistics_.looks.value() == 1)
+            return white_draws<exponential_draws>(buffer, noise_, 0, run);
+        std::fill_n(buffer, run.count, 1.0f);
+        gamma(buffer, statistics_.looks, noise_, run);
         return buffer;
     }
 

@@ -120,15 +120,6 @@ struct run_context {
     Sink sink;
 };
 
-template <class T>
-image_view<const T> read_only(const image<T>& source) {
-    return source;
-}
-template <class T>
-image_view<const T> read_only(image_view<T> source) {
-    return source;
-}
-
 /// Runs a pass and returns its image: in place where the source is an rvalue of the same pixel type.
 template <class Source, class Pass, executor E>
 auto materialize(Source&& source, const Pass& pass, E& ex, pixel_origin origin) {
@@ -138,11 +129,11 @@ auto materialize(Source&& source, const Pass& pass, E& ex, pixel_origin origin) 
     if constexpr (std::is_same_v<Pass, identity_pass>) {
         return image<from>(std::forward<Source>(source));
     } else if constexpr (owned && std::is_same_v<from, to>) {
-        run_pass(read_only(source), source.view(), pass, ex, origin);
+        run_pass<from>(source, source.view(), pass, ex, origin);
         return std::move(source);
     } else {
         image<to> out(source.width(), source.height(), uninitialized{}, memory_of(ex));
-        run_pass(read_only(source), out.view(), pass, ex, origin);
+        run_pass<from>(source, out.view(), pass, ex, origin);
         return out;
     }
 }
@@ -157,7 +148,7 @@ void run_stages(const Source& source, const Pass& pass, const run_context<E, int
     const image_view<To> target = run.sink.target;
     require_equal("to.width()", target.width(), source.width(), "that of the result");
     require_equal("to.height()", target.height(), source.height(), "that of the result");
-    run_pass(read_only(source), target, pass, run.ex, run.origin);
+    run_pass<typename Source::value_type>(source, target, pass, run.ex, run.origin);
 }
 template <class Source, class Pass, class E, class Sink, class F, class... Rest>
 auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& run, const F& stage,
@@ -175,10 +166,10 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
                               identity_pass{}, run, rest...);
         }
     } else if constexpr (is_identity) {
-        return run_stages(std::forward<Source>(source), make_pass(stage, read_only(source), run.ex), run, rest...);
+        return run_stages(std::forward<Source>(source), make_pass<pixel>(stage, source, run.ex), run, rest...);
     } else if constexpr (measured_filter<F, pixel>) {
         image<pixel> seen = materialize(std::forward<Source>(source), pass, run.ex, run.origin);
-        const auto next = make_pass(stage, read_only(seen), run.ex);
+        const auto next = make_pass<pixel>(stage, seen, run.ex);
         return run_stages(std::move(seen), next, run, rest...);
     } else {
         auto next = make_pass(stage, image_view<const pixel>{}, run.ex);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
+#include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/geometry/mesh.hpp>
 
@@ -33,8 +34,7 @@ class triangle_lattice {
         double longest = 0;
         for (int i = 0; i < 3; ++i) {
             const glm::dvec2 edge = corner[(i + 2) % 3] - corner[(i + 1) % 3];
-            const double square = edge.x * edge.x + edge.y * edge.y;
-            if (square > longest) longest = square, right_angle = i;
+            if (const double square = numeric::dot(edge, edge); square > longest) longest = square, right_angle = i;
         }
         triangle_lattice l;
         l.origin_ = corner[right_angle];
@@ -43,7 +43,7 @@ class triangle_lattice {
         if (numeric::abs(l.up_.x) > numeric::abs(l.right_.x)) std::swap(l.right_, l.up_);
         if (l.right_.x < 0) l.right_ = -l.right_;
         if (l.up_.y < 0) l.up_ = -l.up_;
-        const double area = l.right_.x * l.up_.y - l.right_.y * l.up_.x;
+        const double area = numeric::cross(l.right_, l.up_);
         if (!(area > 0)) return std::nullopt;
         l.x_of_ = glm::dvec2(l.up_.y, -l.up_.x) / area;
         l.y_of_ = glm::dvec2(-l.right_.y, l.right_.x) / area;
@@ -119,7 +119,7 @@ inline std::optional<bool> rising_diagonals(const mesh& m, const lattice_vertice
         const glm::ivec2 a = v.at[t.x], b = v.at[t.y], c = v.at[t.z];
         const glm::ivec2 corner{(std::min)((std::min)(a.x, b.x), c.x), (std::min)((std::min)(a.y, b.y), c.y)};
         const glm::ivec2 ab = b - a, ac = c - a;
-        if (ab.x * ac.y - ab.y * ac.x != 1) return std::nullopt;
+        if (numeric::cross(ab, ac) != 1) return std::nullopt;
         // With the corners of a cell numbered x + 2 y, a triangle lacks 1 or 2 if its diagonal is rising, else 0 or 3.
         int missing_corner = 6;
         for (const glm::ivec2& p : {a, b, c}) {

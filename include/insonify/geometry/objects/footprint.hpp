@@ -46,7 +46,7 @@ inline std::vector<glm::dvec2> footprint(const mesh_view& m, const pose& placeme
     const auto add = [&](const glm::dvec2& p, std::size_t kept) {
         while (outline.size() >= kept + 2) {
             const glm::dvec2 a = outline[outline.size() - 2], ab = outline.back() - a, ap = p - a;
-            if (ab.x * ap.y - ab.y * ap.x > 0) break;
+            if (numeric::cross(ab, ap) > 0) break;
             outline.pop_back();
         }
         outline.push_back(p);

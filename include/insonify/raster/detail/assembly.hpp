@@ -243,7 +243,6 @@ struct assembly_kernel {
         pixels.intersect(picture.pixels);
         pixels.is_empty(empty);
 
-        const auto id = static_cast<std::uint32_t>(triangle);
         const int size = tiles.log2_size;  // see tile_range::pack
         const ints first_tile = ints((pixels.x0 >> size) | (pixels.y0 >> size << 16)),
                    last_tile = ints(((pixels.x1 - 1) >> size) | ((pixels.y1 - 1) >> size << 16));
@@ -254,19 +253,7 @@ struct assembly_kernel {
         out.stats.degenerate += static_cast<unsigned>(std::popcount(degenerate));
         out.stats.culled += static_cast<unsigned>(std::popcount(culled_mask));
         out.stats.drawn += static_cast<unsigned>(std::popcount(drawn));
-        // All of them usually touch the same tiles.
-        const std::int32_t one_first = lane(first_tile, 0), one_last = lane(last_tile, 0);
-        if (drawn == all && !any(ints(((first_tile ^ one_first) | (last_tile ^ one_last)) != 0))) {
-            out.runs.add(id, N, {static_cast<std::uint32_t>(one_first), static_cast<std::uint32_t>(one_last)}, true);
-            return true;
-        }
-        std::uint32_t firsts[static_cast<unsigned>(N)], lasts[static_cast<unsigned>(N)];
-        store(firsts, first_tile);
-        store(lasts, last_tile);
-        for (unsigned left = drawn; left != 0; left &= left - 1) {
-            const auto k = static_cast<unsigned>(std::countr_zero(left));
-            out.runs.add(id + k, 1, {firsts[k], lasts[k]}, true);
-        }
+        out.runs.template add_small<N>(static_cast<std::uint32_t>(triangle), drawn, first_tile, last_tile);
         return true;
     }
 };

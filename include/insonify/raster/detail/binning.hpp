@@ -13,6 +13,7 @@
 #include <insonify/core/simd/lanes.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <span>
 #include <utility>
 
@@ -136,6 +137,23 @@ class tile_runs {
             }
         }
         entries_.push_back({tiles, {first, count, is_small}});
+    }
+
+    /// The same for small triangles, from `first` on: those of the bits in `which`, with the first and the last tile of
+    /// each. All of them usually touch the same tiles.
+    template <int N>
+    INSONIFY_INLINE void add_small(std::uint32_t first, unsigned which, const lanes<std::int32_t, N>& first_tile,
+                                   const lanes<std::int32_t, N>& last_tile) {
+        std::uint32_t firsts[static_cast<unsigned>(N)], lasts[static_cast<unsigned>(N)];
+        store(firsts, first_tile);
+        store(lasts, last_tile);
+        if (which == (2u << (N - 1)) - 1 &&
+            !any(lanes<std::int32_t, N>(((first_tile ^ lane(first_tile, 0)) | (last_tile ^ lane(last_tile, 0))) != 0)))
+            return add(first, N, {firsts[0], lasts[0]}, true);
+        for (unsigned left = which; left != 0; left &= left - 1) {
+            const auto k = static_cast<unsigned>(std::countr_zero(left));
+            add(first + k, 1, {firsts[k], lasts[k]}, true);
+        }
     }
 
     /// Calls `visit(tile, run)` for every run and each tile that it touches, in order.

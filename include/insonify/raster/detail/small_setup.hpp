@@ -81,8 +81,8 @@ struct triangle_lanes {
         read(0, ax, ay);
         read(1, bx, by);
         read(2, cx, cy);
-        extend(west, east, ax, bx, cx);
-        extend(north, south, ay, by, cy);
+        range_of(west, east, ax, bx, cx);
+        range_of(north, south, ay, by, cy);
     }
 
     INSONIFY_INLINE bool are_on_grid() const { return !any(ints(west == grid_position::off_grid)); }
@@ -103,14 +103,6 @@ struct triangle_lanes {
         into.y0 = (north + area.before) >> area.bits;
         into.x1 = (east + area.before) >> area.bits;
         into.y1 = (south + area.before) >> area.bits;
-    }
-
-  private:
-    INSONIFY_INLINE static void extend(ints& low, ints& high, const ints& a, const ints& b, const ints& c) {
-        low = a < b ? a : b;
-        low = low < c ? low : c;
-        high = a > b ? a : b;
-        high = high > c ? high : c;
     }
 };
 
@@ -183,9 +175,8 @@ struct small_planes {
         store(dx, reals(scale * (b_dz * cy - c_dz * by)));
         store(dy, reals(scale * (c_dz * bx - b_dz * cx)));
 
-        reals low = az < bz ? az : bz, high = az > bz ? az : bz;
-        low = low < cz ? low : cz;
-        high = high > cz ? high : cz;
+        reals low, high;
+        range_of(low, high, az, bz, cz);
         lanes<float, N> narrow;
         convert(narrow, low);
         store(lowest, narrow);

@@ -4,6 +4,8 @@
 #include <insonify/core/numeric.hpp>
 #include <insonify/core/simd/lanes.hpp>
 
+#include <algorithm>
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
@@ -27,6 +29,17 @@ INSONIFY_INLINE void catmull_rom(T& into, const T (&p)[4], const T& t) {
             d = 0.5f * (p[3] - p[0]) + 1.5f * (p[1] - p[2]);
     into = p[1] + t * (b + t * (c + t * d));
 }
+/// A coordinate in cells, clamped to the grid: the cell's index and the fraction within it, in [0, 1]. NaN counts as 0.
+struct grid_coordinate {
+    int cell;
+    double across;
+    grid_coordinate(double c, int cells) {
+        const double clamped = c > 0 ? (std::min)(c, static_cast<double>(cells)) : 0.0;
+        cell = (std::min)(static_cast<int>(clamped), cells - 1);
+        across = clamped - cell;
+    }
+};
+
 /// Linear interpolation, exact at both ends.
 constexpr float lerp(float a, float b, float t) {
     return a * (1 - t) + b * t;

@@ -52,11 +52,8 @@ class gradient_noise {
             lanes<float, N> across{}, weight, sum, corner[4];  // height and slope at both sides of the cell
             lanes<std::int32_t, N> cell{};
             const auto fetch = [&](const side* from) INSONIFY_INLINE_LAMBDA {
-                if constexpr (N == 1)
-                    std::memcpy(corner, &from[cell].height, sizeof corner);
-                else
-                    insonify::detail::transpose<N>(
-                        corner, [&](int k) INSONIFY_INLINE_LAMBDA { return &from[lane(cell, k)].height; });
+                insonify::detail::transpose<N>(
+                    corner, [&](int k) INSONIFY_INLINE_LAMBDA { return &from[lane(cell, k)].height; });
             };
             if (dense) {
                 locate<N>(across, cell, &part.x[i], lattice_.frequency, lattice_.offset_x, static_cast<double>(first));

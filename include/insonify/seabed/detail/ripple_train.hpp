@@ -204,11 +204,8 @@ class ripple_train {
                 }
             }
             const auto stencil = [&](lanes<float, N>(&into)[4], const float* table) INSONIFY_INLINE_LAMBDA {
-                if constexpr (N == 1)
-                    std::memcpy(into, table + cell - 1, sizeof into);
-                else
-                    insonify::detail::transpose<N>(
-                        into, [&](int k) INSONIFY_INLINE_LAMBDA { return table + lane(cell, k) - 1; });
+                insonify::detail::transpose<N>(into,
+                                               [&](int k) INSONIFY_INLINE_LAMBDA { return table + lane(cell, k) - 1; });
             };
             stencil(stencil_re, table_re.data());
             stencil(stencil_im, table_im.data());

@@ -10,7 +10,6 @@
 #include <array>
 #include <span>
 #include <type_traits>
-#include <utility>
 
 INSONIFY_ARITHMETIC_BEGIN
 

@@ -26,20 +26,16 @@ class grid_caster {
     void decide_own_points(const points& at, std::size_t first, std::size_t last, decision* into, isa level) const {
         insonify::detail::dispatch(kernel{*this, at, first, last, into}, level);
     }
-    /// Whether it blocks the light of one of its own points that faces the light.
+    /// Whether it blocks the light of a point.
     /// @param p       in the frame of the light
+    /// @param is_own  whether p lies on this caster and faces the light
     /// @param decide  decide(triangle): whether the triangle blocks p's light, in doubles; false for p's own triangle
     template <class Decide>
-    bool blocks_own_point(const glm::dvec3& p, const Decide& decide) const {
+    bool blocks(const glm::dvec3& p, bool is_own, const Decide& decide) const {
         const glm::dvec3 at = transform_point(to_mesh_, p);
-        const decision result = bounds_.at(at);
+        const decision result = is_own ? bounds_.at(at) : decision::undecided;
         if (result != decision::undecided) return result == decision::dark;
-        return horizon_walk(bounds_, macrocells_, at).is_blocked_from_surface(decide);
-    }
-    /// The same for any point.
-    template <class Decide>
-    bool blocks(const glm::dvec3& p, const Decide& decide) const {
-        return horizon_walk(bounds_, macrocells_, transform_point(to_mesh_, p)).is_blocked_from_anywhere(decide);
+        return horizon_walk(bounds_, macrocells_, at).is_blocked(is_own, decide);
     }
 
     /// See horizon_triangles.

@@ -16,7 +16,6 @@
 
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/lanes.hpp>
-#include <insonify/geometry/transform.hpp>
 #include <insonify/shadow/detail/lit_grid.hpp>
 #include <insonify/shadow/policy.hpp>
 

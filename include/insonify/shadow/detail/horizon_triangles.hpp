@@ -26,7 +26,7 @@ class mesh_plane_intercepts {
         };
         origin_ = projected(0, 0);
         const glm::dvec2 x = projected(1, 0) - origin_, y = projected(0, 1) - origin_;
-        const double area = x.x * y.y - x.y * y.x;
+        const double area = numeric::cross(x, y);
         x_of_ = glm::dvec2(y.y, -y.x) / area;
         y_of_ = glm::dvec2(-x.y, x.x) / area;
         grid_ = &grid;
@@ -37,14 +37,11 @@ class mesh_plane_intercepts {
     }
 
     /// Bounds of the images of a rectangle.
-    std::pair<glm::dvec2, glm::dvec2> of(const glm::dvec2& corner, const glm::dvec2& size) const {
-        glm::dvec2 lower = (*this)(corner), upper = lower;
-        for (const glm::dvec2& other : {glm::dvec2(size.x, 0), glm::dvec2(0, size.y), size}) {
-            const glm::dvec2 at = (*this)(corner + other);
-            lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
-            upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
-        }
-        return {lower, upper};
+    insonify::detail::ground_rect of(const glm::dvec2& corner, const glm::dvec2& size) const {
+        insonify::detail::ground_rect all;
+        for (const glm::dvec2& to : {glm::dvec2(0), glm::dvec2(size.x, 0), glm::dvec2(0, size.y), size})
+            all.include((*this)(corner + to));
+        return all;
     }
 
   private:
@@ -65,10 +62,9 @@ class horizon_triangles {
         // sin(grazing angle) = slope of u along the light x sin(elevation) / |normal of the facet|. `steepest` is an
         // upper bound of that |normal|.
         const double relief = horizon.u().highest_z - horizon.u().lowest_z;
-        const auto square_of = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
-        const double steps_per_metre = numeric::square_root((std::max)(square_of(grid_.x_of), square_of(grid_.y_of)));
+        const double steps_per_metre = (std::max)(numeric::length(grid_.x_of), numeric::length(grid_.y_of));
         const double steepest = 1 + 2 * relief * steps_per_metre;
-        const double sine = -travel.z / numeric::square_root(numeric::dot(travel, travel));
+        const double sine = -travel.z / numeric::length(travel);
         constexpr double min_sine = 0x1p-20;  // triangles at a smaller grazing angle are left to the test of points
         min_facing_slope_ = horizon.margin() + min_sine * steepest / sine;
         // `lower` has its right angle at `apex` and leaves out the opposite corner. It is the first triangle of a cell
@@ -222,9 +218,8 @@ class horizon_triangles {
         /// @param base              u of its plane at the cell's corner (0, 0)
         INSONIFY_INLINE void operator()(ints& result, const floats& p, const floats& q, const floats& r,
                                         const floats& along_x, const floats& along_y, const floats& base) const {
-            floats largest = p > q ? p : q, smallest = p < q ? p : q;
-            largest = largest > r ? largest : r;
-            smallest = smallest < r ? smallest : r;
+            floats largest, smallest;
+            insonify::detail::range_of(smallest, largest, p, q, r);
             const floats u_slope = along_x + slope * along_y;
             const ints is_above = ints(base + along_x * dx + along_y * dy < eye);
             const ints is_facing = ints(u_slope > min_facing_slope),

@@ -98,16 +98,12 @@ class horizon_walk {
           u_(x_ + grid_.u_per_metre * p.z),
           lattice_margin_(horizon.lattice_margin()) {}
 
-    /// Whether the surface blocks the ray of a point on it, where it faces the light.
-    /// @param decide  decide(triangle): test of a triangle in doubles; false for the triangle of the point
+    /// Whether the surface blocks the point's ray.
+    /// @param is_lit_side  whether the point lies on the surface, where it faces the light
+    /// @param decide       decide(triangle): test of a triangle in doubles; false for the triangle of the point
     template <class Decide>
-    bool is_blocked_from_surface(const Decide& decide) const {
-        return walk(true, decide);
-    }
-    /// The same for any point.
-    template <class Decide>
-    bool is_blocked_from_anywhere(const Decide& decide) const {
-        return walk(lies_above(), decide);
+    bool is_blocked(bool is_lit_side, const Decide& decide) const {
+        return walk(is_lit_side || lies_above(), decide);
     }
 
   private:

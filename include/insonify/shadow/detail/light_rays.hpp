@@ -55,9 +55,9 @@ class light_rays {
         };
         const glm::dvec2 a2 = across(a), b2 = across(b), c2 = across(c);
         const double direction = to_light[axis] < 0 ? -1 : 1;
-        const double bc = direction * (b2.x * c2.y - b2.y * c2.x);
-        const double ca = direction * (c2.x * a2.y - c2.y * a2.x);
-        const double ab = direction * (a2.x * b2.y - a2.y * b2.x);
+        const double bc = direction * numeric::cross(b2, c2);
+        const double ca = direction * numeric::cross(c2, a2);
+        const double ab = direction * numeric::cross(a2, b2);
         const bool is_left = bc >= 0 && ca >= 0 && ab >= 0, is_right = bc <= 0 && ca <= 0 && ab <= 0;
         if (!is_left && !is_right) return false;
         const glm::dvec3 normal = numeric::cross(b - a, c - a);

@@ -5,6 +5,7 @@
 
 #include <insonify/core/detail/uninitialized.hpp>
 #include <insonify/core/executor.hpp>
+#include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/geometry/mesh.hpp>
@@ -43,9 +44,8 @@ struct lit_grid {
           pitch(grid.columns),
           origin(grid.origin) {
         glm::dvec2 x = grid.right, y = grid.up;
-        const auto cross = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
-        double travel_x = cross(glm::dvec2(travel), y) / cross(x, y),
-               travel_y = cross(x, glm::dvec2(travel)) / cross(x, y);
+        double travel_x = numeric::cross(glm::dvec2(travel), y) / numeric::cross(x, y),
+               travel_y = numeric::cross(x, glm::dvec2(travel)) / numeric::cross(x, y);
         if (numeric::abs(travel_y) > numeric::abs(travel_x)) {
             std::swap(columns, rows);
             std::swap(along, across);
@@ -65,8 +65,8 @@ struct lit_grid {
         turn(travel_y, rows, across, y);
         slope = travel_x > 0 ? travel_y / travel_x : 0;
         u_per_metre = travel_x / -travel.z;
-        x_of = glm::dvec2(y.y, -y.x) / cross(x, y);
-        y_of = glm::dvec2(-x.y, x.x) / cross(x, y);
+        x_of = glm::dvec2(y.y, -y.x) / numeric::cross(x, y);
+        y_of = glm::dvec2(-x.y, x.x) / numeric::cross(x, y);
         // A row has one cell less than vertices.
         const auto cell_steps = [&](std::ptrdiff_t vertices) { return vertices - vertices / pitch; };
         first_cell = cell_steps(corner(0, 0));

@@ -150,12 +150,6 @@ struct plane_triangles {
         is_behind = ints(columns[0][3] == plane_vertex::behind) & ints(columns[1][3] == plane_vertex::behind) &
                     ints(columns[2][3] == plane_vertex::behind);
     }
-    INSONIFY_INLINE void range(floats& low, floats& high, int axis) const {
-        low = a[axis] < b[axis] ? a[axis] : b[axis];
-        low = low < c[axis] ? low : c[axis];
-        high = a[axis] > b[axis] ? a[axis] : b[axis];
-        high = high > c[axis] ? high : c[axis];
-    }
 };
 
 /// Notes which tiles the triangles of a chunk touch, in order.
@@ -185,7 +179,7 @@ struct tile_assembly_kernel {
         ints from[2], to[2], outside{};
         unroll<2>([&](int axis) INSONIFY_INLINE_LAMBDA {
             floats low, high;
-            t.range(low, high, axis);
+            range_of(low, high, t.a[axis], t.b[axis], t.c[axis]);
             // The margin covers rounding. Triangles with a NaN bound go into all tiles.
             const auto scale = static_cast<float>(1 / tile[axis]);
             const auto last_cell = static_cast<float>(axis == 0 ? tiles.columns - 1 : tiles.rows - 1);
@@ -203,18 +197,7 @@ struct tile_assembly_kernel {
         }
         if (drawn == 0) return;
         const ints first_tile = from[0] | from[1] << 16, last_tile = to[0] | to[1] << 16;
-        const auto id = static_cast<std::uint32_t>(start);
-        const std::int32_t one_first = lane(first_tile, 0), one_last = lane(last_tile, 0);
-        if (drawn == (2u << (N - 1)) - 1 && !any(ints(((first_tile ^ one_first) | (last_tile ^ one_last)) != 0))) {
-            runs.add(id, N, {static_cast<std::uint32_t>(one_first), static_cast<std::uint32_t>(one_last)}, true);
-            return;
-        }
-        for (unsigned left = drawn; left != 0; left &= left - 1) {
-            const int k = std::countr_zero(left);
-            runs.add(id + static_cast<unsigned>(k), 1,
-                     {static_cast<std::uint32_t>(lane(first_tile, k)), static_cast<std::uint32_t>(lane(last_tile, k))},
-                     true);
-        }
+        runs.template add_small<N>(static_cast<std::uint32_t>(start), drawn, first_tile, last_tile);
     }
 
     /// Whether a triangle that reaches behind a point light lies beyond one side of the pyramid from the light through

@@ -61,7 +61,7 @@ struct occlusion_kernel {
         floats extent[2], size{};
         unroll<2>([&](int axis) INSONIFY_INLINE_LAMBDA {
             floats low, high;
-            t.range(low, high, axis);
+            range_of(low, high, t.a[axis], t.b[axis], t.c[axis]);
             const float lower = receivers.lower()[axis], scale = receivers.scale()[axis];
             const float last_cell = static_cast<float>(axis == 0 ? receivers.columns() - 1 : receivers.rows() - 1);
             const floats largest_coordinate = high < 0.0f - low ? 0.0f - low : high;
@@ -75,7 +75,7 @@ struct occlusion_kernel {
             extent[axis] = (high - low) + 2.0f * receivers.cell()[axis];
         });
         floats low, high;
-        t.range(low, high, 2);
+        range_of(low, high, t.a[2], t.b[2], t.c[2]);
         const floats height_rounding =
             0x1.2p-24f * (high > 0.0f - low ? high : 0.0f - low) + height_error_of_receivers();
         missed |=

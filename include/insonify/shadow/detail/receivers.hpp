@@ -4,7 +4,6 @@
 #include <insonify/core/detail/dynamic_array.hpp>
 #include <insonify/core/detail/uninitialized.hpp>
 #include <insonify/core/numeric.hpp>
-#include <insonify/core/simd/lanes.hpp>
 #include <insonify/shadow/policy.hpp>
 
 #include <algorithm>

@@ -21,14 +21,10 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 
 /// The rectangle of a plane that contains the eight points corner(0) to corner(7).
 template <class Corner>
-std::pair<glm::dvec2, glm::dvec2> extent_on(const light_plane& plane, const Corner& corner) {
-    glm::dvec2 lower(std::numeric_limits<double>::infinity()), upper = -lower;
-    for (int i = 0; i < 8; ++i) {
-        const glm::dvec3 at = plane(corner(i));
-        lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
-        upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
-    }
-    return {lower, upper};
+insonify::detail::ground_rect extent_on(const light_plane& plane, const Corner& corner) {
+    insonify::detail::ground_rect all;
+    for (int i = 0; i < 8; ++i) all.include(glm::dvec2(plane(corner(i))));
+    return all;
 }
 
 /// One plane.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <insonify/core/detail/uninitialized.hpp>
-#include <insonify/core/simd/dispatch.hpp>
 #include <insonify/shadow/policy.hpp>
 
 #include <cstddef>
@@ -88,23 +87,17 @@ struct light_arrays {
     }
 };
 
-/// Points that face the light concern all casters; those that face away only need the targets, for labels.
+/// Calls visit(points, results) for each batch of a list: points that face the light concern all casters, those that
+/// face away only need the targets, for labels.
 /// @param targets  casters numbered below this are targets
-inline shadow::points batch(shadow::points all, bool face_light, std::uint32_t targets) {
-    if (!face_light) all.casters = targets;
-    all.face_light = face_light;
-    return all;
-}
-
-/// Calls visit(points, results) for each batch of a list.
 template <class Visit>
 void for_each_batch(const point_list& points, const shadow::results& all, std::uint32_t targets, const Visit& visit) {
-    if (points.facing > 0)
-        visit(batch(points.facing_points(), true, targets),
-              shadow::results{all.lit.first(points.facing), all.caster.first(points.facing)});
-    if (points.facing_away > 0)
-        visit(batch(points.points_facing_away(), false, targets),
-              shadow::results{all.lit.subspan(points.facing), all.caster.subspan(points.facing)});
+    shadow::points facing = points.facing_points(), away = points.points_facing_away();
+    away.casters = targets, away.face_light = false;
+    if (facing.size() > 0)
+        visit(facing, shadow::results{all.lit.first(points.facing), all.caster.first(points.facing)});
+    if (away.size() > 0)
+        visit(away, shadow::results{all.lit.subspan(points.facing), all.caster.subspan(points.facing)});
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
-#include <insonify/core/numeric.hpp>
 
 #include <cstddef>
 #include <cstdint>

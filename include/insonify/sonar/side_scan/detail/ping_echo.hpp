@@ -7,6 +7,7 @@
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
+#include <insonify/core/linear.hpp>
 #include <insonify/seabed/any.hpp>
 #include <insonify/sonar/side_scan/detail/bottom_profile.hpp>
 #include <insonify/sonar/side_scan/detail/echo_bins.hpp>
@@ -234,7 +235,7 @@ class ping_tracer {
     /// `half_length`, of first order in the ray's width, does not hold there.
     INSONIFY_RARE extent perpendicular_echo(std::size_t k, float middle, const facet& part) const {
         const auto at_edge = [&](std::size_t edge) {
-            const ping_fan::direction d = fan_.at(static_cast<double>(fan_.first() + edge));
+            const numeric::sine_cosine d = fan_.at(static_cast<double>(fan_.first() + edge));
             const glm::dvec2 met =
                 part.at((part.x * d.cosine - part.p.down * d.sine) / (part.ddown * d.sine - part.dx * d.cosine));
             return static_cast<float>(axis_.position(met.x, met.y));
@@ -258,9 +259,7 @@ class ping_tracer {
     }
 
     /// The target between the sonar and a point of ray k, or no_shadow.
-    std::uint16_t occluder(std::size_t k, const glm::dvec2& p) const {
-        return hits_.occluder(k, numeric::square_root(p.x * p.x + p.y * p.y));
-    }
+    std::uint16_t occluder(std::size_t k, const glm::dvec2& p) const { return hits_.occluder(k, numeric::length(p)); }
     /// The caster of a shadow below the horizon: a target, if one occludes the point, or the seabed.
     std::uint16_t caster_below_horizon(const glm::dvec2& p) const {
         const std::uint16_t target = has_targets_ ? occluder(fan_.first_over(p.x, p.y), p) : labels::no_shadow;

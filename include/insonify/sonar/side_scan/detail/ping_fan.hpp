@@ -107,15 +107,9 @@ class ping_fan {
         if (t >= wall_first_) t = wall_first_ + (numeric::atan2(x, down) - wall_from_) / wall_angle_;
         return (std::min)((std::max)(t, first_), first_ + static_cast<double>(size()));
     }
-    struct direction {
-        double sine, cosine;  ///< across and down
-    };
-    /// The inverse of `coordinate`.
-    direction at(double t) const {
-        if (t >= wall_first_) {
-            const auto [sine, cosine] = numeric::sin_cos(wall_from_ + wall_angle_ * (t - wall_first_));
-            return {sine, cosine};
-        }
+    /// The inverse of `coordinate`: across and down.
+    numeric::sine_cosine at(double t) const {
+        if (t >= wall_first_) return numeric::sin_cos(wall_from_ + wall_angle_ * (t - wall_first_));
         const double tangent = t * spacing_;
         const double cosine = 1 / numeric::square_root(1 + tangent * tangent);
         return {tangent * cosine, cosine};

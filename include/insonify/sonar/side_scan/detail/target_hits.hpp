@@ -7,6 +7,7 @@
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
+#include <insonify/core/linear.hpp>
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/side_scan/detail/ping_fan.hpp>
 #include <insonify/sonar/side_scan/detail/target_slices.hpp>
@@ -67,7 +68,7 @@ class target_hits {
             }
             const ping_fan::ray& ray = (*fan_)[k];
             const glm::dvec2 p = point(o, {ray.sine, ray.cosine});
-            const double range = p.x * p.x + p.y * p.y;
+            const double range = numeric::dot(p, p);
             if (range < nearest_[k].range) nearest_[k] = {range, id};
         }
     }
@@ -153,12 +154,12 @@ class target_hits {
     }
 
     /// The fraction of a segment at which a direction meets it, in [0, 1].
-    static double along(const cut_segment& o, const ping_fan::direction& d) {
+    static double along(const cut_segment& o, const numeric::sine_cosine& d) {
         const double before = o.a.x * d.cosine - o.a.down * d.sine, after = o.b.x * d.cosine - o.b.down * d.sine;
         const double f = before / (before - after);
         return f > 0 ? (f < 1 ? f : 1.0) : 0.0;
     }
-    static glm::dvec2 point(const cut_segment& o, const ping_fan::direction& d) {
+    static glm::dvec2 point(const cut_segment& o, const numeric::sine_cosine& d) {
         const double f = along(o, d);
         return {o.a.x + f * (o.b.x - o.a.x), o.a.down + f * (o.b.down - o.a.down)};
     }
@@ -167,18 +168,18 @@ class target_hits {
     void add_hit(std::uint32_t id, double low, double high) {
         const segment& p = segments_[id];
         const cut_segment& o = p.shape;
-        const ping_fan::direction middle = fan_->at(0.5 * (low + high));
+        const numeric::sine_cosine middle = fan_->at(0.5 * (low + high));
         const double f = along(o, middle);
         const glm::dvec2 at(o.a.x + f * (o.b.x - o.a.x), o.a.down + f * (o.b.down - o.a.down));
         const glm::dvec2 from = point(o, fan_->at(low)), to = point(o, fan_->at(high));
-        if (!(at.x * at.x + at.y * at.y > 0)) return;
+        if (!(numeric::dot(at, at) > 0)) return;
         hits_.push_back({high - low, at.x, at.y, from.x, from.y, to.x, to.y,
                          grazing_sine(o, static_cast<float>(f), middle), p.reflectivity, p.instance});
     }
 
     /// Sine of the grazing angle. The facet decides which side is insonified, and the sign of the normal; it replaces
     /// normals that are zero or not finite.
-    static float grazing_sine(const cut_segment& o, float f, const ping_fan::direction& d) {
+    static float grazing_sine(const cut_segment& o, float f, const numeric::sine_cosine& d) {
         const auto sine = static_cast<float>(d.sine), cosine = static_cast<float>(d.cosine);
         glm::vec3 n = o.a.normal + f * (o.b.normal - o.a.normal);
         float square = numeric::dot(n, n);
@@ -202,11 +203,11 @@ class target_hits {
         for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
             if (!(ends_[i] < ends_[i + 1])) continue;
             const double middle = 0.5 * (ends_[i] + ends_[i + 1]);
-            const ping_fan::direction d = fan_->at(middle);
+            const numeric::sine_cosine d = fan_->at(middle);
             candidate best{std::numeric_limits<double>::infinity(), 0};
             const auto offer = [&](std::uint32_t id) {
                 const glm::dvec2 p = point(segments_[id].shape, d);
-                const double range = p.x * p.x + p.y * p.y;
+                const double range = numeric::dot(p, p);
                 if (range < best.range) best = {range, id};
             };
             for (const part& p : parts)

@@ -35,7 +35,7 @@ class sliced_target {
         if (box.empty()) return;
         centre_ = transform_point(to_world_, box.centre());
         const glm::dvec3 half = 0.5 * box.size();
-        radius_ = numeric::square_root(numeric::dot(half, half)) * static_cast<double>(t.placement.scale) * (1 + 1e-6);
+        radius_ = numeric::length(half) * static_cast<double>(t.placement.scale) * (1 + 1e-6);
         const glm::dmat3& linear = to_world_.linear;
         half_height_ = numeric::abs(linear[0].z) * half.x + numeric::abs(linear[1].z) * half.y +
                        numeric::abs(linear[2].z) * half.z;
