@@ -87,10 +87,7 @@ int main(int argc, char** argv) try {
     const auto datum = static_cast<float>(in::numeric::is_finite(edge) ? edge : mean_height(survey));
     for (float& h : survey.heights.pixels()) h -= datum;
 
-    sb::roughness finer = sb::roughness_of(in::sediment::medium_sand);
-    finer.longest = (std::max)(static_cast<float>(survey.spacing), finer.shortest);
-    finer.rms = sb::parameters_of(in::sediment::medium_sand).rms() *
-                static_cast<float>(in::numeric::pow(survey.spacing, 0.625));
+    const auto finer = sb::roughness_of(in::sediment::medium_sand, static_cast<float>(survey.spacing));
     in::scene scene;
     scene.seabed = sb::detailed{.field = survey, .surface = finer};
 

@@ -1,19 +1,20 @@
-// Policy macros. A program may define any of the following before its first include of the library. Units may differ in
-// them, except that those of equal flags share one INSONIFY_ASSERT and one INSONIFY_THROW: docs/compile_cost.md says
-// how they mix.
+// Policy macros. A program may define any of the following before its first include of the library. Units may define
+// them differently, but units with the same compiler flags must agree on INSONIFY_ASSERT and INSONIFY_THROW
+// (docs/compile_cost.md).
 //
 //     INSONIFY_SIMD           1 (default where the compiler has vector extensions) or 0: everything scalar, same bytes
 //     INSONIFY_WHOLE_KERNELS  1 (default with optimization) or 0: see below
 //     INSONIFY_ASSERT(x)      internal invariants; default: assert(x)
 //     INSONIFY_THROW(e)       how an error leaves the library when exceptions are off; must not return. Without it the
 //                             message goes to stderr and the program is terminated
-//     INSONIFY_COMPILED       the compiled form (see compiled.hpp): this unit declares what one unit compiles
-//     INSONIFY_IMPLEMENTATION this is the unit that compiles it
+//     INSONIFY_COMPILED       compiled form (see compiled.hpp): this unit only declares the heavy functions
+//     INSONIFY_IMPLEMENTATION compiled form: this unit defines them
 //
 // Three inline namespaces keep apart what the linker must not merge:
 //   INSONIFY_ABI    the version. Public types are there, so that they pass between units whatever their flags.
 //   INSONIFY_FLAGS  nested in it, named after the flags that change generated code. Holds functions, and classes that
-//                   compute: no call links to a copy that another unit compiled for another processor or other checks.
+//                   compute: no call links to a copy that another unit compiled with other checks or optimization, or
+//                   for processors of another tier of instruction sets (below). Units within a tier share one copy.
 //   INSONIFY_ONCE   functions that the compiled form compiles once: there a fixed name, else INSONIFY_FLAGS.
 #pragma once
 
@@ -54,10 +55,10 @@
 // macros enclose every header with floating-point arithmetic and disable contraction whatever the flags, except that
 // clang ignores the pragma under an explicit -ffp-contract=fast (not under fast-honor-pragmas). They also suppress
 // g++'s note on the ABI of wide vectors, which are passed only within always-inlined code, and g++ 11's false warnings
-// of vectors that are filled lane by lane.
+// about vectors that are filled lane by lane.
 #if defined(__clang__) && !defined(__x86_64__) && !defined(__i386__)
-// clang has float_control on x86 alone: elsewhere contraction stays off to the end of the unit, which may have asked
-// for that.
+// clang has float_control on x86 alone: elsewhere contraction stays off to the end of the unit, also in the user's own
+// code after the include.
 #define INSONIFY_ARITHMETIC_BEGIN _Pragma("clang fp contract(off)")
 #define INSONIFY_ARITHMETIC_END
 #elif defined(__clang__)
@@ -91,7 +92,7 @@
 #define INSONIFY_COMPILED
 #endif
 #if defined(__GNUC__) && !defined(__OPTIMIZE__)
-#warning "INSONIFY_IMPLEMENTATION without optimization: everything will be drawn slowly. Compile this unit with -O2."
+#warning "INSONIFY_IMPLEMENTATION without optimization: rendering will be slow. Compile this unit with -O2."
 #endif
 #define INSONIFY_BODIES 1
 #define INSONIFY_FUNCTION
@@ -104,7 +105,7 @@
 #endif
 
 // Run-time dispatch to wider instruction sets: x86-64 with GNU attributes, and only where kernels are optimized. Other
-// builds compile one path, to the same bytes.
+// builds compile one path, with bit-identical results.
 #if INSONIFY_SIMD && defined(__x86_64__) && defined(__GNUC__) && defined(__OPTIMIZE__)
 #define INSONIFY_DISPATCH 1
 #else
@@ -112,8 +113,8 @@
 #endif
 
 // INSONIFY_WHOLE_KERNELS: with 1, all calls of a kernel are inlined into one function. With 0, programs compile a
-// little faster and run several times longer, with the same bytes. The default is 0 without optimization and under
-// sanitizers, whose instrumentation would take minutes to compile.
+// little faster and run several times longer, with bit-identical results. The default is 0 without optimization and
+// under sanitizers, whose instrumentation would take minutes to compile.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define INSONIFY_SANITIZED 1
 #elif defined(__has_feature)
@@ -155,7 +156,8 @@
 #define INSONIFY_JOIN_RAW(a, b) a##b
 #define INSONIFY_JOIN(a, b) INSONIFY_JOIN_RAW(a, b)
 
-// Instruction sets that the flags of a unit allow without a run-time check.
+// Tiers of the instruction sets that the flags of a unit allow without a run-time check. _sse42 and _avx2 are x86-64-v2
+// and v3, or more of the same tier.
 #if !INSONIFY_SIMD
 #define INSONIFY_TAG_SIMD built_scalar
 #else
@@ -163,12 +165,16 @@
 #endif
 #if defined(__AVX512F__)
 #define INSONIFY_TAG_TARGET _avx512
-#elif defined(__AVX2__) || defined(__FMA__) || defined(__BMI__) || defined(__BMI2__)
+#elif defined(__AVX2__) && defined(__FMA__) && defined(__BMI2__)
 #define INSONIFY_TAG_TARGET _avx2
+#elif defined(__AVX2__) || defined(__FMA__) || defined(__BMI__) || defined(__BMI2__)
+#define INSONIFY_TAG_TARGET _avx_bmi
 #elif defined(__AVX__)
 #define INSONIFY_TAG_TARGET _avx
+#elif defined(__SSE4_2__) && defined(__POPCNT__)
+#define INSONIFY_TAG_TARGET _sse42
 #elif defined(__SSE3__) || defined(__SSSE3__) || defined(__SSE4_1__) || defined(__POPCNT__)
-#define INSONIFY_TAG_TARGET _sse4
+#define INSONIFY_TAG_TARGET _sse3
 #elif defined(__ARM_FEATURE_SVE)
 #define INSONIFY_TAG_TARGET _sve
 #else

@@ -26,7 +26,7 @@ struct mask_difference {
 
     INSONIFY_MEMBER std::size_t wrong_pixels() const { return false_positives + false_negatives; }
 
-    /// Of several pictures together.
+    /// Adds the counts of another image.
     INSONIFY_MEMBER mask_difference& operator+=(const mask_difference& other) {
         true_positives += other.true_positives;
         false_positives += other.false_positives;
@@ -37,12 +37,13 @@ struct mask_difference {
 
     /// Intersection over union (Jaccard index), 1 when both masks are empty.
     INSONIFY_MEMBER double intersection_over_union() const {
-        const std::size_t joined = true_positives + wrong_pixels();
-        return joined == 0 ? 1.0 : static_cast<double>(true_positives) / static_cast<double>(joined);
+        const std::size_t in_either = true_positives + wrong_pixels();
+        return in_either == 0 ? 1.0 : static_cast<double>(true_positives) / static_cast<double>(in_either);
     }
-    /// Mean displacement of the boundary along its length, pixels: wrong pixels over boundary pixels. Infinite if there
-    /// are wrong pixels but no boundary. A missing feature contributes its area over the length of its boundary,
-    /// about half its width, however far it is from any other.
+    /// Mean displacement of the boundary along its length, pixels: wrong pixels over boundary pixels. Exact along rows
+    /// and columns, up to sqrt(2) too large on diagonal boundaries. Infinite if there are wrong pixels but no boundary.
+    /// A missing feature contributes its area over the length of its boundary, about half its width, however far it
+    /// is from any other.
     INSONIFY_TAGGED double mean_boundary_displacement() const {
         if (wrong_pixels() == 0) return 0;
         if (boundary_pixels == 0) return std::numeric_limits<double>::infinity();

@@ -18,7 +18,7 @@
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// An argument that cannot be right. `what()` names the argument, its value, and what was expected.
+/// An argument outside its documented range. `what()` names the argument, its value, and what was expected.
 struct invalid_input : std::invalid_argument {
     using std::invalid_argument::invalid_argument;
 };
@@ -58,7 +58,7 @@ std::string to_text(Number value) {
     }
 }
 
-/// A word of the input for an error message, at most 40 characters of it.
+/// A quoted word of the input for an error message, cut to its first 40 bytes.
 inline std::string quoted(std::string_view word) {
     std::string text(1, '\'');
     text += word.substr(0, 40);
@@ -82,7 +82,7 @@ template <arithmetic Number>
     refuse_text(argument, to_text(value), expected);
 }
 
-/// Preconditions of public functions read: `require(width > 0, "width", width, "at least 1")`.
+/// Checks a precondition of a public function: `require(width > 0, "width", width, "at least 1")`.
 template <arithmetic Number>
 void require(bool holds, std::string_view argument, Number value, std::string_view expected) {
     if (!holds) refuse(argument, value, expected);

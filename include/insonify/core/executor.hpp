@@ -59,9 +59,13 @@ class executor_ref {
     template <std::invocable<std::size_t> Fn>
     INSONIFY_TAGGED void bulk(std::size_t count, Fn&& fn) const {
         using function = std::remove_reference_t<Fn>;
-        bulk_(
-            executor_, count,
-            [](const void* to, std::size_t i) { (*const_cast<function*>(static_cast<const function*>(to)))(i); }, &fn);
+        if constexpr (std::is_function_v<function>)
+            bulk(count, &fn);
+        else
+            bulk_(
+                executor_, count,
+                [](const void* to, std::size_t i) { (*const_cast<function*>(static_cast<const function*>(to)))(i); },
+                &fn);
     }
 
     const detail::shared_pool& memory() const { return memory_; }

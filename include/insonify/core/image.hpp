@@ -35,7 +35,9 @@ class image {
     INSONIFY_MEMBER image(int width, int height, T fill = T{})
         : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area(), fill) {}
 
-    /// @param memory  of a context, see detail::memory_of
+    /// Pixels are left uninitialized.
+    /// @param memory  pool of a context, see detail::memory_of
+    /// @throws invalid_input as above
     INSONIFY_MEMBER image(int width, int height, detail::uninitialized, const detail::shared_pool& memory = {})
         : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area(), memory) {}
 
@@ -67,7 +69,7 @@ class image {
         : width_(std::exchange(other.width_, 0)),
           height_(std::exchange(other.height_, 0)),
           pixels_(std::move(other.pixels_)) {}
-    /// If allocation fails, the image is unchanged. One that is moved from is empty afterwards.
+    /// If allocation fails, the image is unchanged. An image that was moved from is empty.
     INSONIFY_MEMBER image& operator=(image other) noexcept {
         pixels_ = std::move(other.pixels_);
         width_ = other.width_, height_ = other.height_;

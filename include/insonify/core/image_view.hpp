@@ -32,7 +32,7 @@ class image_view {
     }
     INSONIFY_MEMBER image_view(T* data, int width, int height) : image_view(data, width, height, width) {}
 
-    /// A view of mutable pixels reads as a view of constant ones.
+    /// Converts from a view of mutable pixels.
     template <std::same_as<value_type> Mutable>
         requires(std::is_const_v<T>)
     INSONIFY_MEMBER image_view(image_view<Mutable> other)

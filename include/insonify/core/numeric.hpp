@@ -75,7 +75,7 @@ constexpr bool is_finite(double value) {
     return (numeric::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
 }
 
-/// Absolute value.
+/// Absolute value; -0 stays -0.
 template <class T>
 constexpr T abs(T value) {
     return value < 0 ? -value : value;
@@ -181,7 +181,8 @@ inline sine_cosine sin_cos_turns(double x) {
 inline sine_cosine sin_cos(double radians) {
     return sin_cos_turns(radians * (0.5 * std::numbers::inv_pi));
 }
-/// Tangent of an angle in radians.
+/// Tangent of an angle in radians, from sin_cos. Meaningless within 1e-15 of odd multiples of pi / 2, where it may be
+/// infinite with the wrong sign.
 inline double tan(double radians) {
     const auto [sine, cosine] = sin_cos(radians);
     return sine / cosine;
@@ -218,7 +219,7 @@ inline double atan2(double y, double x) {
 }
 
 /// Quantile of the standard normal distribution, absolute error < 4.5e-4, for probabilities above 0 and below 1.
-/// C. Hastings. Approximations for Digital Computers, 1955, sheet 67.
+/// M. Abramowitz, I. A. Stegun. Handbook of Mathematical Functions, 1964, 26.2.23 (after C. Hastings, 1955).
 inline double normal_quantile(double probability) {
     const double tail = probability < 0.5 ? probability : 1 - probability, t = square_root(-2 * log(tail));
     const double z =
@@ -258,7 +259,7 @@ void require_fraction(std::string_view argument, Number value) {
 template <std::floating_point Number>
 void require_angle(std::string_view argument, Number value, std::string_view member = {}) {
     require_member(value >= Number(-1e6) && value <= Number(1e6), argument, member, value,
-                   "finite radians, within 10^6 of 0");
+                   "finite radians, from -10^6 to 10^6");
 }
 
 /// Calls `validate(value)` if the type has one.

@@ -49,7 +49,7 @@ INSONIFY_INLINE void store_codes(Code* to, const lanes<std::int32_t, N>& code) {
         store_codes<N / 2>(to, half[0]);
         store_codes<N / 2>(to + N / 2, half[1]);
     } else if constexpr (N % 4 == 0) {
-        // Packs saturate to 16 bits with a sign: codes of 16 bits go there less 2^15.
+        // packssdw saturates to signed 16 bits: codes of 16 bits are offset by -2^15, and back after it.
         constexpr int offset = sizeof(Code) == 2 ? 0x8000 : 0;
         const lanes<std::int32_t, N> shifted = code - offset;
         lanes<std::int32_t, 4> half[2];

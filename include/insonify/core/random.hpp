@@ -41,7 +41,7 @@ constexpr philox_counter philox4x32(philox_counter counter, philox_key key) {
 
 /// The key of a stream: draws of different streams are independent under one seed.
 constexpr philox_key stream_key(std::uint64_t seed, std::uint32_t stream) {
-    // Mixed by a whole block, so that adjacent seeds and streams share no key word.
+    // Mixed by a whole block, so that adjacent seeds and streams have unrelated keys.
     const philox_counter mixed = philox4x32(
         {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32), stream, 0x696E736Fu}, {0, 0});
     return {mixed[0], mixed[1]};
@@ -59,12 +59,12 @@ inline std::array<double, 2> normal_pair(std::uint32_t a, std::uint32_t b) {
     return {first, second};
 }
 
-/// Draws in sequence, for parameters of scenes and other small jobs; two sequences of one seed differ in `stream`.
+/// Sequential draws, for scene parameters and other small jobs. Sequences of one seed need different streams.
 class random_sequence {
   public:
-    /// @param seed    the run
-    /// @param stream  what the numbers are for
-    /// @param item    which image, target or track of that run
+    /// @param seed    seed of the run
+    /// @param stream  purpose of the numbers; different streams are independent
+    /// @param item    index of the image, target or track
     explicit random_sequence(std::uint64_t seed, std::uint32_t stream = 0, std::uint64_t item = 0)
         : key_(stream_key(seed, stream)), item_(item) {}
 
@@ -79,9 +79,9 @@ class random_sequence {
 
     /// Uniform in (0, 1).
     double uniform() { return uniform_open(word()); }
-    /// Uniform between low and high, which rounding may reach.
+    /// Uniform in (low, high); rounding may reach the ends.
     double uniform(double low, double high) { return low + (high - low) * uniform(); }
-    /// Uniform over 0 ... count - 1; the bias is below count / 2^32.
+    /// Uniform over 0 ... count - 1; each probability is within a factor 1 +- count / 2^32 of 1 / count.
     /// @throws invalid_input for count = 0
     std::uint32_t below(std::uint32_t count) {
         detail::require(count > 0, "count", count, "at least 1");

@@ -53,10 +53,10 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// Piecewise linear through five colours at levels 0, 63.75, 127.5, 191.25 and 255; ties round up.
 constexpr rgb8 between_colors(int level, const std::array<rgb8, 5>& colors) {
-    const int quarter = (std::min)(4 * level / 255, 3), share = 4 * level - 255 * quarter;  // of 255
+    const int quarter = (std::min)(4 * level / 255, 3), weight = 4 * level - 255 * quarter;  // of 255
     const rgb8 &a = colors[static_cast<std::size_t>(quarter)], &b = colors[static_cast<std::size_t>(quarter) + 1];
-    const auto mix = [share](int from, int to) {
-        return static_cast<std::uint8_t>((2 * ((255 - share) * from + share * to) + 255) / 510);
+    const auto mix = [weight](int from, int to) {
+        return static_cast<std::uint8_t>((2 * ((255 - weight) * from + weight * to) + 255) / 510);
     };
     return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)};
 }
@@ -82,10 +82,10 @@ inline constexpr color_table gray = tabulate_colors([](int level) {
 
 /// Black through red and yellow to white: MATLAB's hot(256), whose red is full at 3/8, green at 6/8 of the way.
 inline constexpr color_table hot = tabulate_colors([](int level) {
-    const auto share = [](int i, int of) {
-        return static_cast<std::uint8_t>(i <= 0 ? 0 : i < of ? (510 * i + of) / (2 * of) : 255);
+    const auto ramp = [](int i, int length) {
+        return static_cast<std::uint8_t>(i <= 0 ? 0 : i < length ? (510 * i + length) / (2 * length) : 255);
     };
-    return rgb8{share(level + 1, 96), share(level + 1 - 96, 96), share(level + 1 - 192, 64)};
+    return rgb8{ramp(level + 1, 96), ramp(level + 1 - 96, 96), ramp(level + 1 - 192, 64)};
 });
 
 /// The amber of side-scan displays and printed records: black, brown, amber and pale yellow, piecewise linear.

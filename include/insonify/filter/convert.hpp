@@ -48,7 +48,7 @@ inline constexpr detail::to_code<std::uint8_t> to_uint8{};
 /// [0, 1] -> 0 ... 65535, in the same way.
 inline constexpr detail::to_code<std::uint16_t> to_uint16{};
 
-/// 0 ... 255 or 65535 -> [0, 1]; `to_uint8` or `to_uint16` is its exact inverse.
+/// 0 ... 255 or 65535 -> [0, 1]; `to_uint8` or `to_uint16` restores the same codes.
 inline constexpr detail::to_unit to_float{};
 
 }  // namespace INSONIFY_ABI

@@ -23,7 +23,7 @@ inline void require_gamma_shape(const char* name, const parameter& shape) {
         name, [](float v) { return v >= 0.01f && v <= 1e6f; }, "0.01 to 1e6");
 }
 
-/// Checks what pixels are said to hold.
+/// Checks that a value is an enumerator of `echo`.
 inline void require_echo(const char* name, echo of) {
     require(of == echo::amplitude || of == echo::intensity, name, static_cast<int>(of), "amplitude or intensity");
 }
@@ -74,7 +74,7 @@ struct gamma_speckle {
 /// variance / mean^2 of the intensity is 1 + 2 / shape. Illustrative shapes: rock 0.5 to 2, gravel 2 to 4, sand 8 to
 /// 20.
 struct k_speckle {
-    parameter shape = 4;  ///< of the mean, 0.01 to 1e6
+    parameter shape = 4;  ///< of the gamma-distributed texture, 0.01 to 1e6
     float looks = 1;      ///< 0.01 to 1e6
     echo of = echo::amplitude;
     /// If not 0, `looks` must be a whole number, 1 to 64. With a map of shapes, only the speckle is correlated; the
@@ -98,12 +98,12 @@ struct k_speckle {
     }
 };
 
-/// Rician amplitudes: a steady echo among the others, as from mud or a few strong facets. Variance / mean^2 of the
-/// intensity is (1 + 2 steady) / (1 + steady)^2.
+/// Rician speckle: a coherent echo, as from mud or a few strong facets, plus diffuse ones. Variance / mean^2 of the
+/// intensity is (1 + 2 K) / (1 + K)^2 with the Rice factor K = `steady`.
 struct rician {
-    parameter steady = 1;  ///< power of the steady echo over that of the others, 0 to 1e6; 0 is Rayleigh
+    parameter steady = 1;  ///< Rice factor, coherent over diffuse power: 0 to 1e6; 0 is Rayleigh
     echo of = echo::amplitude;
-    /// With a map of `steady`, the length of the other echoes' intensity; that of the sum is up to 1.4 times as long.
+    /// With a map of `steady`, the length of the diffuse intensity; that of the sum is up to 1.4 times as long.
     correlation_length correlation{};
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;  ///< which image of a set

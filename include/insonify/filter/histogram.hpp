@@ -1,7 +1,7 @@
-// Histograms over equidistant levels, and two filters of MATLAB's: histogram equalization and matching.
+// Histograms over equally spaced levels, and MATLAB's two histogram filters: equalization and matching.
 //
-// NaN is not counted and stays NaN. By MATLAB's rule, a constant image becomes the level at which the cumulative share
-// of the target histogram reaches one half, or its highest occupied level if the image is at level 0 or the last level.
+// NaN is not counted and stays NaN. By MATLAB's rule, a constant image becomes the level at which the target's
+// cumulative fraction reaches one half, or the target's highest occupied level if the image is at level 0 or the last.
 //
 // Based on: MathWorks. Image Processing Toolbox, imhist, histeq, imhistmatch (64 bins, 256 source levels, 65536 for
 // codes of 16 bits).

@@ -146,12 +146,12 @@ auto operator|(image_view<Pixel> in, const F& f) {
     return apply(in, f);
 }
 
-// Deleted overloads, so that compilers name the filter that does not accept these pixels.
+// Deleted overloads, so that compilers name the type that is no filter of these pixels, instead of all candidates.
 // clang-format off
-template <class Pixel, detail::library_filter F>
-void operator|(const image<Pixel>&, const F&) requires(!filter_for<F, Pixel>) = delete;
-template <class Pixel, detail::library_filter F>
-void operator|(image_view<Pixel>, const F&) requires(!filter_for<F, std::remove_const_t<Pixel>>) = delete;
+template <class Pixel, class NoFilter>
+void operator|(const image<Pixel>&, const NoFilter&) requires(!filter_for<NoFilter, Pixel>) = delete;
+template <class Pixel, class NoFilter>
+void operator|(image_view<Pixel>, const NoFilter&) requires(!filter_for<NoFilter, std::remove_const_t<Pixel>>) = delete;
 // clang-format on
 
 /// `filter | filter`: a chain of both. One of them must be a filter of the library or a chain.

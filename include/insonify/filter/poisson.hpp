@@ -122,7 +122,7 @@ class poisson_law {
         pixel_list open;
         for (int i = 0; i < run.count; ++i) {
             count[i] = mean[i] = static_cast<double>(numeric::saturate(from[i]) * photons_);
-            add_if(mean[i] == mean[i], i, open.places, open.count);
+            add_if(mean[i] == mean[i], i, open.indices, open.count);
         }
         dispatch(rejection_kernel<poisson_counts>{{}, mean, count, &open, run, noise_}, best_isa());
         for (int i = 0; i < run.count; ++i)

@@ -106,7 +106,7 @@ class replacement_file {
     /// or a link to one
     explicit replacement_file(std::string path) : path_(std::move(path)) {
         if (path_.find('\0') != std::string::npos)
-            detail::raise_io(path_.c_str(), "can't open for writing: a zero byte in its name");
+            detail::raise_io(path_.c_str(), "can't open for writing: its name contains a null byte");
         if (path_.empty()) detail::raise_io(path_, "can't open for writing");
         if (detail::is_special(path_)) detail::raise_io(path_, "can't open for writing: not a regular file");
         const std::string shortened = path_.substr(0, detail::name_begin(path_) + 240);

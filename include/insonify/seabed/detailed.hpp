@@ -17,10 +17,10 @@ class detailed_sampler;
 
 }  // namespace INSONIFY_FLAGS
 
-/// A heightfield with cubic interpolation between its vertices, plus roughness.
+/// A heightfield with bicubic (Catmull-Rom) interpolation between its vertices, plus roughness. Within two cells of a
+/// missing vertex it has the heightfield's triangles instead; where they meet, heights may step by 1/8 of the relief.
 ///
-/// To continue the survey's spectrum, set the roughness's longest cell to the survey's spacing: a sediment's relief of
-/// wavelengths below L metres has an rms of parameters_of(sediment).rms() L^0.625.
+/// `roughness_of(sediment, spacing)` continues the relief of a survey of that spacing (seabed/sediment.hpp).
 struct detailed {
     heightfield field{};
     roughness surface{.rms = 0.01f, .longest = 1, .shortest = 0.06f};

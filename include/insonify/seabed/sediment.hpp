@@ -11,6 +11,7 @@
 #include <insonify/seabed/ripples.hpp>
 #include <insonify/seabed/rock.hpp>
 
+#include <algorithm>
 #include <string_view>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -41,9 +42,16 @@ inline sediment sediment_of_phi(float phi) {
     return static_cast<sediment>(best->label);
 }
 
-/// The power-law roughness of a sediment: relief that is four times as long as a metre is 4^0.625 times as high.
-inline roughness roughness_of(sediment s) {
-    return {.rms = 2.3784f * parameters_of(s).rms(), .longest = 4, .shortest = 0.06f};
+/// The power-law roughness of a sediment, in octaves of cells from `longest` down.
+///
+/// They have the sediment's spectrum at wavelengths below the longest cell, 0.86 of it at those up to twice as long,
+/// and together the variance of the spectrum's waves below 2.16 times the cell: measured by periodograms.
+/// @param longest  metres, as of roughness; to continue the relief of a survey, the survey's spacing
+inline roughness roughness_of(sediment s, float longest = 4) {
+    const double growth = numeric::pow(2.16 * static_cast<double>(longest), 0.625);  // see sediment_parameters::rms
+    return {.rms = static_cast<float>(growth) * parameters_of(s).rms(),
+            .longest = longest,
+            .shortest = (std::min)(0.06f, longest)};
 }
 
 /// The seabed that a sediment makes, with its label: outcrops and boulders of rock, cobbles, level sand, soft mud. A

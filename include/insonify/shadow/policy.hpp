@@ -10,7 +10,8 @@
 //     render(scene, rig, render_options<my_policy>{});
 //
 // Parallel light is a shadow::directional_light; shadow::light_frame (light.hpp) has its direction as a vector. Casters
-// are the targets in the order of the scene, then the seabed, in the frame of the light.
+// are the targets in the order of the scene, then the seabed if there is one, all in the upright frame in which the
+// light is described: the rig's in `render`.
 #pragma once
 
 #include <insonify/core/detail/uninitialized.hpp>

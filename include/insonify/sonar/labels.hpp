@@ -21,9 +21,9 @@ struct target_label {
     std::uint16_t instance = 0;  ///< as in labels::instance
     pose placement;
     rect box;                      ///< bounding box of its visible pixels
-    rect shadow_box;               ///< bounding box of its shadow on the seabed
+    rect shadow_box;               ///< bounding box of the seabed's pixels whose `shadow` is its instance
     std::int64_t area = 0;         ///< visible pixels
-    std::int64_t shadow_area = 0;  ///< pixels of its shadow on the seabed
+    std::int64_t shadow_area = 0;  ///< the number of these pixels
 };
 
 /// One value per pixel of the picture in each image, and a list of the targets.
@@ -34,8 +34,9 @@ struct labels {
     static constexpr std::uint8_t no_seabed = 0xFF;     ///< a target, or neither
 
     image<std::uint16_t> instance;  ///< 1 for the scene's first target, 2 for the second, ...
-    image<std::uint16_t> shadow;    ///< no_shadow, by_seabed, or the instance that casts the shadow
-    image<std::uint8_t> seabed;     ///< a seabed::type, or no_seabed
+    /// no_shadow, by_seabed, or the instance that casts the shadow; of several, overhead, the first in the scene.
+    image<std::uint16_t> shadow;
+    image<std::uint8_t> seabed;  ///< a seabed::type, or no_seabed
     std::vector<target_label> targets;
     std::vector<insonify::seabed::type_properties> legend;  ///< of the values of `seabed`
 

@@ -50,8 +50,9 @@ class thread_pool {
         if (count == 0) return;
         if (workers_.empty() || count == 1 || busy_.exchange(true)) return serial_executor{}.bulk(count, fn);
 
-        job work{[](void* callable, std::size_t i) { (*static_cast<std::remove_reference_t<Fn>*>(callable))(i); },
-                 const_cast<void*>(static_cast<const void*>(&fn)), count};
+        const auto call = [&fn](std::size_t i) { fn(i); };
+        job work{[](const void* callable, std::size_t i) { (*static_cast<decltype(call)*>(callable))(i); }, &call,
+                 count};
         {
             const std::lock_guard lock(mutex_);
             job_ = &work;
@@ -74,8 +75,8 @@ class thread_pool {
 
   private:
     struct job {
-        void (*call)(void*, std::size_t);
-        void* callable;
+        void (*call)(const void*, std::size_t);
+        const void* callable;
         std::size_t count;
         std::atomic<std::size_t> next{0};
         std::atomic<int> helpers{0};  // workers inside run(); changed under mutex_
@@ -98,8 +99,8 @@ class thread_pool {
         }
     }
 
-    /// Spins for a few tens of microseconds or until the condition holds. A picture takes some twenty bulks, and
-    /// sleeping between two of them takes longer than most of the gaps.
+    /// Spins until the condition holds, at most about 100 us. A frame makes some twenty bulk calls, and waking a thread
+    /// takes longer than most of the gaps between them.
     template <class Condition>
     INSONIFY_TAGGED static void spin_until(const Condition& condition) {
 #if defined(__SSE2__)

@@ -45,7 +45,7 @@ TEST_CASE("Numbers beyond those of a double are read as 0 or infinite, however t
     CHECK(read("3e999999999999999999999") == infinity);
     CHECK(read("3e-999999999999999999999") == 0);
     CHECK(read("+0.5") == 0.5);
-    for (const char* const wrong : {"", "+", "1x", "+-1", " 1", "0x1", "1e"}) {
+    for (const char* const wrong : {"", "+", "1x", "+-1", " 1", "0x1", "1e", "nan()", "nan(12)"}) {
         double value = 0;
         CAPTURE(wrong);
         CHECK_FALSE(in::detail::parse_number(wrong, value));

@@ -55,6 +55,18 @@ TEST_CASE("A pool has one thread per hardware thread by default and refuses size
     CHECK_THROWS_AS(in::thread_pool(4097), in::invalid_input);
 }
 
+TEST_CASE("A plain function can be the work of a bulk", "[threads]") {
+    static std::atomic<int> made{0};
+    struct work {
+        static void count(std::size_t) { ++made; }
+    };
+    in::thread_pool pool(2);
+    pool.bulk(3, work::count);
+    in::executor_ref(pool).bulk(4, work::count);
+    in::serial_executor{}.bulk(5, work::count);
+    CHECK(made == 12);
+}
+
 TEST_CASE("Every call of many short bulks has returned before its bulk does", "[threads]") {
     in::thread_pool pool(3);
     int wrong = 0;

@@ -52,7 +52,7 @@ floats by_poisson(int count, float photons, in::isa level) {
     pixel_list list;
     for (int i = 0; i < count; ++i) {
         mean.push_back(static_cast<double>(photons) * (i * 37 % 101) / 100);
-        add_if(true, i, list.places, list.count);
+        add_if(true, i, list.indices, list.count);
     }
     dispatch(rejection_kernel<poisson_counts>{{}, mean.data(), drawn.data(), &list, {11, 13, count, 0}, key}, level);
     floats to;
@@ -63,7 +63,7 @@ floats by_poisson(int count, float photons, in::isa level) {
 floats by_gamma(int count, double shape, in::isa level) {
     std::vector<double> shapes(static_cast<std::size_t>(count), shape), drawn(shapes.size());
     pixel_list list;
-    for (int i = 0; i < count; ++i) add_if(true, i, list.places, list.count);
+    for (int i = 0; i < count; ++i) add_if(true, i, list.indices, list.count);
     dispatch(rejection_kernel<gamma_rejection>{{}, shapes.data(), drawn.data(), &list, {1, 2, count, 0}, key}, level);
     floats to;
     for (const double d : drawn) to.push_back(static_cast<float>(d));

@@ -42,10 +42,15 @@ TEST_CASE("The relief of a sediment is that of its spectrum: 2 pi w2 K^-1.25 / 1
     const double w2 = 0.004446, k = 2 * 3.14159265358979 / 100;
     const double expected = std::sqrt(2 * 3.14159265358979 * w2 * std::pow(k, -1.25) / 1.25) / 100;
     CHECK(static_cast<double>(sb::parameters_of(in::sediment::medium_sand).rms()) == Approx(expected).epsilon(1e-3));
-    // The same spectrum reaches further than a metre: the variance of all that is shorter than L grows as L^1.25.
+    // The same spectrum reaches further than a metre: the variance of all waves shorter than L grows as L^1.25.
+    for (const float longest : {0.5f, 4.0f}) {
+        const sb::roughness rough = sb::roughness_of(in::sediment::medium_sand, longest);
+        CHECK(rough.longest == longest);
+        CHECK(static_cast<double>(rough.rms) ==
+              Approx(expected * std::pow(2.16 * static_cast<double>(longest), 0.625)).epsilon(1e-3));
+    }
+    CHECK(sb::roughness_of(in::sediment::medium_sand, 0.01f).shortest == 0.01f);
     const sb::roughness rough = sb::roughness_of(in::sediment::medium_sand);
-    const auto length = static_cast<double>(rough.longest);
-    CHECK(static_cast<double>(rough.rms) == Approx(expected * std::pow(length, 0.625)).epsilon(1e-3));
     const auto field =
         sb::sample(sb::bottom_of(in::sediment::medium_sand), {.spacing = 1.21, .width = 400, .height = 400});
     double square = 0;

@@ -160,6 +160,29 @@ TEST_CASE(
     CHECK(slope(between_ripples, spacing) == Approx(-3.25).margin(0.15));
 }
 
+TEST_CASE("Sediments, and surveys continued by them, have the spectral strength of the table, w2 (K cm)^-3.25") {
+    const float longest = GENERATE(4.0f, 0.8f);
+    const int n = 256;
+    const double spacing = 0.05, w2 = 0.004446, window = 2.25;  // mean square of a Hann window in two dimensions
+    std::vector<double> power(3), expected(3);                  // of octaves: 0.2 to 0.4 m, 0.4 to 0.8 m, 0.8 to 1.6 m
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        const sb::flat sand{.surface = sb::roughness_of(sb::sediment::medium_sand, longest), .seed = seed};
+        const auto found = periodogram(sb::sample(sand, {.spacing = spacing, .width = n, .height = n}).heights);
+        for (int y = 0; y < n; ++y)
+            for (int x = 0; x < n; ++x) {
+                const double wave_number =
+                    2 * pi * std::hypot(signed_frequency(x, n), signed_frequency(y, n)) / (n * spacing);
+                const double octave = std::log2(2 * pi / wave_number / 0.2);
+                if (!(octave >= 0 && octave < 3)) continue;
+                const auto i = static_cast<std::size_t>(octave);
+                power[i] += found(x, y) * std::pow(spacing / n / (2 * pi), 2) / window;
+                expected[i] += w2 * 1e-8 * std::pow(wave_number / 100, -3.25);
+            }
+    }
+    for (std::size_t i = 0; i < 2; ++i) CHECK(power[i] == Approx(expected[i]).epsilon(0.08));
+    CHECK(power[2] == Approx((longest > 1.6f ? 1 : 0.86) * expected[2]).epsilon(0.08));
+}
+
 TEST_CASE("Ripples have the wavelength, spread and bandwidth of their parameters") {
     const float direction = GENERATE(0.0f, 2.1f);
     const sb::ripples recipe{

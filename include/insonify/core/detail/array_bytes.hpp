@@ -11,8 +11,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail {
 
-/// A size that would overflow is clamped to one that no machine has, so that its allocation throws like any other that
-/// is too large.
+/// A size that would overflow is clamped to that of the largest object, which a 64-bit machine cannot allocate: it
+/// throws like any other size that is too large.
 template <class T>
 INSONIFY_MEMBER constexpr std::size_t array_bytes(std::size_t count) {
     constexpr std::size_t largest = PTRDIFF_MAX / sizeof(T);

@@ -1,8 +1,8 @@
-// Pool of large memory blocks, reused from frame to frame so that pages are not mapped and cleared again.
+// Pool of large memory blocks, reused from frame to frame.
 //
-// The operating system maps and clears every page that it hands out, which takes up to half the time of a frame of
-// 2048 x 2048 pixels. A pool keeps freed blocks instead. It belongs to a `context`; the arrays that allocate from it
-// share it, so that images outlive their context.
+// The operating system maps and clears fresh pages, which takes up to half the time of a frame of 2048 x 2048 pixels.
+// A pool keeps freed blocks instead. A `context` and the arrays that allocate from its pool share ownership of it, so
+// images may outlive their context.
 #pragma once
 
 #include <insonify/config.hpp>
@@ -27,7 +27,7 @@ class block_pool {
     block_pool() = default;
     block_pool(const block_pool&) = delete;
     block_pool& operator=(const block_pool&) = delete;
-    ~block_pool() { release(); }
+    INSONIFY_TAGGED ~block_pool() { release(); }
 
     /// A block of at least `bytes` bytes: the latest kept one of the same size class, or a new one.
     /// @throws std::bad_alloc
@@ -41,8 +41,8 @@ class block_pool {
         return memory;
     }
 
-    /// Keeps a block for later. Frees the oldest kept ones so that kept blocks and those in use together are then
-    /// within 1.5 times the peak in use since the last release.
+    /// Keeps a block for later if kept blocks and those in use then total at most 1.5 times the peak since the last
+    /// release. The oldest kept blocks are freed to make room, and this one if that is not enough.
     INSONIFY_TAGGED void deallocate(void* memory, std::size_t bytes) noexcept {
         const std::size_t size = size_class(bytes);
         const guard lock(busy_);
@@ -67,6 +67,7 @@ class block_pool {
     }
 
     /// Two classes an octave: images of nearly the same size, as in a data set, share their blocks.
+    /// @pre bytes >= 2
     INSONIFY_TAGGED static std::size_t size_class(std::size_t bytes) {
         const std::size_t step = std::bit_floor(bytes) / 2;
         return (bytes + step - 1) / step * step;
@@ -80,12 +81,12 @@ class block_pool {
     struct guard {
         std::atomic_flag& busy;
 
-        explicit guard(std::atomic_flag& flag) : busy(flag) {
+        INSONIFY_TAGGED explicit guard(std::atomic_flag& flag) : busy(flag) {
             while (busy.test_and_set(std::memory_order_acquire)) {
             }
         }
         guard(const guard&) = delete;
-        ~guard() { busy.clear(std::memory_order_release); }
+        INSONIFY_MEMBER ~guard() { busy.clear(std::memory_order_release); }
     };
 
     INSONIFY_TAGGED void* take_kept(std::size_t size) noexcept {
@@ -97,7 +98,7 @@ class block_pool {
     INSONIFY_TAGGED static void* new_block(std::size_t size) {
         return ::operator new (size, std::align_val_t{alignment});
     }
-    /// A new block. If memory is lacking, frees what is kept and tries once more.
+    /// A new block. If allocation fails, frees the kept blocks and tries once more.
     INSONIFY_TAGGED void* fresh_block(std::size_t size) {
 #if defined(__cpp_exceptions)
         try {
@@ -131,7 +132,7 @@ class block_pool {
     int count_ = 0;
     std::size_t kept_ = 0;    ///< bytes of all blocks_
     std::size_t in_use_ = 0;  ///< bytes allocated and not yet deallocated
-    std::size_t peak_ = 0;    ///< largest in_use_ since the last release
+    std::size_t peak_ = 0;    ///< largest in_use_ that an allocation reached since the last release
 };
 
 using shared_pool = std::shared_ptr<block_pool>;

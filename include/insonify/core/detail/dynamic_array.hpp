@@ -20,7 +20,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail {
 
-/// Members are named as those of std::vector and do the same.
+/// Members have the names and the behaviour of std::vector's; `append` inserts a range at the end.
 template <class T>
 class dynamic_array {
   public:
@@ -71,7 +71,7 @@ class dynamic_array {
         reserve(count);
         construct_to(count, value);
     }
-    /// `values` are of another array.
+    /// @pre `values` are not elements of this array
     INSONIFY_TAGGED void append(std::span<const T> values) {
         make_room(size_ + values.size());
         if constexpr (std::is_trivially_copyable_v<T>) {

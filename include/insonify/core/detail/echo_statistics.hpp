@@ -1,5 +1,5 @@
-// Statistics of echoes, for noise filters and for speckle by label: intensities of a look, gamma-distributed averages
-// and textures, mean amplitudes, and the correlation of a field that gives intensities theirs.
+// Statistics of echoes, for noise filters and speckle by label: the intensity of a look, gamma-distributed averages and
+// textures, mean amplitudes, and the correlation that a Gaussian field needs for intensities of a given correlation.
 //
 // Based on: Stephen O. Rice. Mathematical Analysis of Random Noise. Bell System Technical Journal 24, 1945. E. Jakeman,
 // P. N. Pusey. A Model for Non-Rayleigh Sea Echo. IEEE Transactions on Antennas and Propagation 24, 1976 (the
@@ -17,7 +17,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The part of one look in an average of looks, Rician intensities of mean 1: |s + n|^2 / ((1 + s^2) looks).
+/// Contribution of one look to the mean of `looks` Rician intensities of mean 1: |s + n|^2 / ((1 + s^2) looks).
 /// @param re, im  of n, complex normal noise of unit power
 /// @param steady  s^2, power of the steady echo; 0 for exponential intensities
 inline float look_intensity(float re, float im, float steady, int looks) {
@@ -79,8 +79,8 @@ inline double mean_root_of_gamma(double shape) {
     return factor * numeric::square_root(x / shape) * series;
 }
 
-/// The mean of |s + n| where n is complex normal noise of unit power and s^2 = `steady`, over sqrt(1 + steady); to
-/// 1e-6 (Rice, eq. 3.10-12).
+/// The mean of |s + n| over sqrt(1 + steady), where n is complex normal noise of unit power and s^2 = `steady`; error
+/// below 5e-12 (Rice, eq. 3.10-12).
 inline double mean_of_rice(double steady) {
     const double half_root_pi = 0.88622692545275801;
     if (steady > 300) {
@@ -108,8 +108,8 @@ double field_length(double length, const Law& of_field) {
     return length / numeric::square_root(-numeric::log(0.5 * (low + high)));
 }
 
-/// Correlation of Rician intensities |s + n|^2, n a complex normal field of unit power, for one of the field. Without a
-/// steady part, and for averages of looks, it is the field's square.
+/// Correlation of Rician intensities |s + n|^2 as a function of the correlation r of n, a complex normal field of unit
+/// power: r (r + 2 s^2) / (1 + 2 s^2). For s = 0, and for averages of looks, it is r^2.
 /// @param steady  s^2
 inline auto rice_correlation(double steady) {
     return [=](double field) { return field * (field + 2 * steady) / (1 + 2 * steady); };

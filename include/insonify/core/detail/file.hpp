@@ -48,7 +48,7 @@ class file_handle {
 /// The bytes of a file.
 /// @throws io_error if it can't be opened or read
 inline std::string file_bytes(const std::string& path) {
-    if (path.find('\0') != path.npos) raise_io(path.c_str(), "can't open for reading: a zero byte in its name");
+    if (path.find('\0') != path.npos) raise_io(path.c_str(), "can't open for reading: its name contains a null byte");
     errno = 0;
     const file_handle file(path, "rb");
     if (file.get() == nullptr) raise_io(path, "can't open for reading", errno);

@@ -1,4 +1,4 @@
-// Images filled with one value in parallel, since filling a large image takes as long as drawing a small picture.
+// Fills an image with one value in parallel: on one thread, a large image takes as long to fill as a small one to draw.
 #pragma once
 
 #include <insonify/core/detail/portable.hpp>

@@ -1,5 +1,5 @@
-// 128-bit integers for exact geometry: products of two 64-bit numbers, sums, differences, signs. Two's complement
-// in two halves, portable to every compiler.
+// 128-bit integers for exact geometry: products of two 64-bit numbers, sums, differences, signs. Two's complement in
+// two halves, portable to every compiler; sums wrap.
 #pragma once
 
 #include <insonify/config.hpp>

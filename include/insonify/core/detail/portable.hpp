@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -40,15 +41,16 @@ constexpr To bit_cast(const From& from) noexcept {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Reads all of a text as a decimal number, `inf` or `nan`, with a sign or without, whatever the locale. Numbers beyond
-/// those of a double become 0 or infinite.
+/// Parses the whole text as a decimal number, `inf`, `infinity` or `nan`, with an optional sign, whatever the locale.
+/// Numbers beyond a double's range become 0 or infinity.
+/// @param value  the number; unspecified if the text is none
 /// @returns whether the text is a number
 inline bool parse_number(std::string_view text, double& value) {
     // from_chars does not accept a plus sign.
     if (text.substr(0, 1) == "+" && text.substr(1, 1) != "-") text.remove_prefix(1);
 #if defined(__cpp_lib_to_chars)
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (status == std::errc::invalid_argument || end != text.data() + text.size()) return false;
+    if (status == std::errc::invalid_argument || end != text.data() + text.size() || text.back() == ')') return false;
     if (status == std::errc::result_out_of_range) {
         // The status does not tell which end of the range was left; the decimal exponent of the first digit that is
         // not 0 does.
@@ -73,7 +75,8 @@ inline bool parse_number(std::string_view text, double& value) {
 #endif
 }
 
-/// Writes the shortest text that reads back as the same number, whatever the locale, without a zero at its end.
+/// Writes the shortest text that reads back as the same number, whatever the locale; not null-terminated.
+/// @pre 64 characters from `first` to `last`, which hold any number
 /// @returns the end of the text
 template <class Number>
 char* format_number(char* first, char* last, Number value) {
@@ -83,10 +86,12 @@ char* format_number(char* first, char* last, Number value) {
             std::snprintf(first, static_cast<std::size_t>(last - first), "%.*g", digits, static_cast<double>(value));
             if (static_cast<Number>(std::strtod(first, nullptr)) == value) break;
         }
-        char* end = first;
-        for (; *end != '\0'; ++end)
-            if (*end == *std::localeconv()->decimal_point) *end = '.';
-        return end;
+        const std::string_view point = std::localeconv()->decimal_point;  // of several bytes in some locales
+        char* const at = std::strstr(first, point.data());
+        char* const end = first + std::strlen(first);
+        if (at == nullptr) return end;
+        *at = '.';
+        return std::copy(at + point.size(), end, at + 1);
     } else
 #endif
         return std::to_chars(first, last, value).ptr;

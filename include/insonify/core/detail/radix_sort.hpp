@@ -1,4 +1,5 @@
-// Radix sort by digits of 11 bits: linear, and five to six times as fast as std::sort on millions of values.
+// Radix sort by digits of 11 bits, in linear time: 4.5 times as fast as std::sort on millions of random 32-bit values,
+// 1.4 times on `keyed` items whose 64-bit keys are random. Digits that all items share cost no pass.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
@@ -23,7 +24,7 @@ constexpr float from_ordered_bits(std::uint32_t bits) {
     return numeric::bit_cast<float>(bits ^ ((bits >> 31) != 0 ? 0x80000000u : 0xFFFFFFFFu));
 }
 
-/// A number to sort, and what it is sorted by.
+/// An index and the key it is sorted by.
 struct keyed {
     std::uint64_t key;
     std::uint32_t number;
@@ -35,7 +36,7 @@ constexpr std::uint64_t key_of(const keyed& item) {
     return item.key;
 }
 
-/// Sorts items by their key_of. The order of equal ones is kept.
+/// Sorts items by their key_of; stable.
 template <class Item>
 void radix_sort(dynamic_array<Item>& items) {
     if (items.size() < 64) {  // insertion sort: cheaper than clearing the counts

@@ -22,9 +22,9 @@ INSONIFY_INLINE void for_each_block(std::size_t count, const Block& block) {
 
 /// into[i] = taps[0] from[i] + sum over j of taps[j] (from[i - j step] + from[i + j step])
 struct taps_along_row {
-    std::span<const float> taps;  ///< half of them, from the middle outwards
-    const float* from;
-    std::size_t step;  ///< 2 for complex values
+    std::span<const float> taps;  ///< half of a symmetric kernel: the centre tap, then one side
+    const float* from;            ///< readable (taps.size() - 1) step values before and after the `count` ones
+    std::size_t step;             ///< 2 for complex values
     float* into;
     std::size_t count;
 
@@ -46,7 +46,7 @@ struct taps_along_row {
 
 /// into[i] = sum over k of taps[|k - middle|] rows[k][i]
 struct taps_across_rows {
-    std::span<const float> taps;         ///< half of them, from the middle outwards
+    std::span<const float> taps;         ///< half of a symmetric kernel: the centre tap, then one side
     std::span<const float* const> rows;  ///< 2 taps.size() - 1
     float* into;
     std::size_t count;

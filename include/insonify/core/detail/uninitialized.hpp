@@ -1,5 +1,5 @@
-// Arrays whose elements start uninitialized, for storage that is overwritten at once. Large ones may draw on a
-// context's memory.
+// Arrays whose elements start uninitialized, for storage that is overwritten immediately. Blocks of 64 KiB and more can
+// come from a context's pool.
 #pragma once
 
 #include <insonify/core/detail/array_bytes.hpp>

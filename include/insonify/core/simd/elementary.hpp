@@ -114,11 +114,11 @@ INSONIFY_INLINE void cos_sin_turns(lanes<float, N>& cosine, lanes<float, N>& sin
     std::memcpy(&sine, &bits, sizeof bits);
 }
 
-/// Cosine and sine of x turns, |x| <= 1/2, absolute error below 2e-6.
+/// Cosine and sine of x turns, |x| <= 1/2, absolute error below 1e-6.
 template <int N>
 INSONIFY_INLINE void cos_sin_turns(lanes<float, N>& cosine, lanes<float, N>& sine, const lanes<float, N>& x) {
     using floats = lanes<float, N>;
-    // Taylor series of the half angle, which is below pi / 2, then the double-angle formulas.
+    // Taylor series of the half angle, which is at most pi / 2, then the double-angle formulas.
     const floats a = x * static_cast<float>(numeric::pi);
     const floats t = a * a;
     const floats s =

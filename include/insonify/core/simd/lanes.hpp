@@ -60,7 +60,7 @@ INSONIFY_INLINE void shuffle(Into& into, const Lanes& first, const Lanes& second
     (std::make_integer_sequence<int, N>{});
 }
 
-/// Cuts N lanes in two.
+/// Splits N lanes into two halves.
 template <int N, class Half, class Lanes>
 INSONIFY_INLINE void split(Half& low, Half& high, const Lanes& of) {
     shuffle<N / 2>(low, of, of, [](int i) { return i; });
@@ -88,6 +88,7 @@ INSONIFY_INLINE void prefetch(const void* address) {
 #endif
 }
 
+/// Unaligned load and store.
 template <class T, class Lanes>
 INSONIFY_INLINE void load(Lanes& into, const T* from) {
     std::memcpy(&into, from, sizeof into);

@@ -93,7 +93,7 @@ class code_counter {
 
     void add_to(std::span<std::uint64_t> sums) const {
         for (std::size_t i = 0; i < levels; ++i) {
-            std::uint32_t count = 0;  // wraps correctly: below 2^32 pixels
+            std::uint32_t count = 0;  // modulo 2^32, as NaN is subtracted from one table; bands have fewer pixels
             for (std::size_t table = 0; table < tables; ++table) count += counts_[table * levels + i];
             sums[i] += count;
         }
@@ -105,7 +105,7 @@ class code_counter {
     dynamic_array<std::uint32_t> counts_;
 };
 
-/// Counts any pixel type into any number of bins.
+/// Counts any pixel type into any number of bins. NaN is not counted.
 template <class Pixel>
 class bin_counter {
   public:

@@ -63,7 +63,7 @@ class correlated_draws {
         }
     };
 
-    /// Fields come in the same order in each run, so the next is usually the one behind the last.
+    /// Fields come in the same order in each run, so the strip is usually the one after the last used.
     strip& strip_of(std::uint32_t field, const noise_run& run) {
         for (std::size_t i = 0; i < strips_.size(); ++i) {
             last_ = last_ + 1 < strips_.size() ? last_ + 1 : 0;
@@ -71,7 +71,8 @@ class correlated_draws {
             if (s.x == run.x && s.count == run.count && s.field == field && s.channel == run.channel) return s;
         }
         for (strip& s : strips_)
-            if (s.field == field && s.channel == run.channel && s.y >= run.y) {  // of columns that are finished
+            // Reuses a strip whose row is not above this one: in band order, that of a finished column of runs.
+            if (s.field == field && s.channel == run.channel && s.y >= run.y) {
                 s.x = run.x, s.count = run.count, s.filled = false;
                 return s;
             }

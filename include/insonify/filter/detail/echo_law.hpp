@@ -173,7 +173,7 @@ class echo_law {
         shapes.row(shape, run.count, run.x, run.y);
         for (int i = 0; i < run.count; ++i) {
             wide[i] = static_cast<double>(shape[i]);
-            add_if(shape[i] > 0, i, list.places, list.count);
+            add_if(shape[i] > 0, i, list.indices, list.count);
             drawn[i] = 1;
         }
         dispatch(rejection_kernel<gamma_rejection>{{}, wide, drawn, &list, run, noise}, best_isa());

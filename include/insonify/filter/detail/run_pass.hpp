@@ -35,8 +35,8 @@ void prepare_pass(Pass& pass, const pixel_area& area) {
 template <class From, class To, class Pass, executor E>
 void run_pass(image_view<const From> from, image_view<To> to, const Pass& pass, E& ex, pixel_origin origin) {
     constexpr int farthest = 1 << 30;
-    require_range("origin.x", origin.x, -farthest, farthest, "within 2^30");
-    require_range("origin.y", origin.y, -farthest, farthest, "within 2^30");
+    require_range("origin.x", origin.x, -farthest, farthest, "-2^30 to 2^30");
+    require_range("origin.y", origin.y, -farthest, farthest, "-2^30 to 2^30");
     // Correlated noise evaluates up to 1024 pixels beyond the image; their coordinates must fit an int.
     constexpr std::int64_t upper_bound = (std::int64_t{1} << 31) - 1024;
     require(std::int64_t{origin.x} + from.width() <= upper_bound, "origin.x", origin.x, "at most 2^31 - 1024 - width");
@@ -44,7 +44,7 @@ void run_pass(image_view<const From> from, image_view<To> to, const Pass& pass, 
             "at most 2^31 - 1024 - height");
     Pass prepared = pass;
     prepare_pass(prepared, {origin.x, origin.y, from.width(), from.height()});
-    // A pass that computes rows above has long bands, and keeps those rows for one column of runs at a time.
+    // A pass that needs the rows above gets long bands, and keeps those rows for one column of runs at a time.
     const int width = from.width(), above = rows_above(prepared);
     const int rows = (std::max)(65536 / (std::max)(width, 1) + 1, 2 * above), step = above > 0 ? run_length : width;
     bulk_ranges(ex, static_cast<std::size_t>(from.height()), static_cast<std::size_t>(rows),

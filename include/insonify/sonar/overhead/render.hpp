@@ -32,8 +32,9 @@ class overhead_renderer {
                       executor_ref ex)
         : scene_(s), materials_(checked_materials(s, options)), view_(rig), options_(options), bottom_(memory_of(ex)) {
         static_assert(shadow::policy<Shadow>,
-                      "a shadow policy has build(casters, light, bounds, executor) const, which returns an object with "
-                      "test(points, results) const: see shadow/policy.hpp");
+                      "a shadow policy has build(casters, light, bounds, executor) const, for a light of type const "
+                      "shadow::any_light&, which returns an object with test(points, results) const: see "
+                      "shadow/policy.hpp");
         out_.rows.step = 0;
         // The first draw clears it.
         out_.image = image<float>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
