@@ -3903,7 +3903,7 @@ struct echo_factor {
 };
 
 /// How intensities are drawn; `by_looks` is exponential for one look, else gamma. The choice never depends on whether a
-/// parameter is a map, so that a map of equal values gives the same noise as that value.
+/// parameter is a map: without correlation, a map of equal values gives the same noise as that value.
 enum class echo_draw { gamma, by_looks, rice };
 
 /// Statistics of an intensity: the three numbers of a speckle_law, by pixel.
@@ -6318,7 +6318,7 @@ INSONIFY_FUNCTION mesh to_mesh(const cube& shape);
 INSONIFY_FUNCTION mesh to_mesh(const cube& shape) {
     mesh out;
     for (int along = 0; along < 3; ++along) {
-        detail::require_positive("cube.size", shape.size[along]);
+        detail::require_positive("cube.size", 0.5f * shape.size[along]);
         for (const float side : {-1.0f, 1.0f}) {
             // Across the face the axes follow cyclically; on the negative side they change places to face outwards.
             const int u = (along + (side > 0 ? 1 : 2)) % 3;
@@ -7723,6 +7723,7 @@ class netpbm_reader {
         kind_ = rest_[1];
         if (std::string_view("2356Ff").find(kind_) == std::string_view::npos)
             fail("netpbm format P" + std::string(1, kind_) + " is not one of P2 P3 P5 P6 PF Pf");
+        if (!is_space(rest_[2]) && rest_[2] != '#') fail("not a netpbm file");
         rest_.remove_prefix(2);
         width_ = integer("width", 1, 1 << 30);
         height_ = integer("height", 1, 1 << 30);
@@ -8079,7 +8080,7 @@ struct draw_stats {
 
 #include <iterator>
 
-// Types of relief, with the gray values of the paper's pictures. They are not sediments.
+// Types of relief, with the gray values of the published recipe's pictures (docs/recipe.md). They are not sediments.
 //      label, name, reflectivity, speckle: looks, texture, steady
 #define INSONIFY_RELIEF_TYPES(ROW)           \
     ROW(sand, "sand", 0.45f, {1, 15, 0})     \
@@ -8157,7 +8158,7 @@ constexpr std::size_t index_of(type t) {
 struct type_properties {
     type label = type::sand;
     std::string_view name;       ///< for manifests and messages; a string literal, or text that outlives its users
-    float reflectivity = 0.45f;  ///< as of a material: relative, that of sand is 0.45
+    float reflectivity = 0.45f;  ///< relative, as a material's; that of sand is 0.45
     speckle_law speckle{};
     friend bool operator==(const type_properties&, const type_properties&) = default;
 };
@@ -8277,18 +8278,18 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/seabed/model.hpp -----------------------------------------------------------------
 // The concept of a seabed: heights and labels along rows of world points.
 //
-// A model is a copyable value of two or three members, of the library or of a user:
+// A model is a copyable type with two or three members, the library's or a user's:
 //
 //     struct dunes {
 //         static constexpr in::seabed::type_properties kind{in::seabed::user_type(0), "dunes", 0.6f, {.texture = 8}};
 //         void row(const in::seabed::scanline& line, std::span<float> heights) const;  // metres above the datum
-//         in::seabed::height_range range() const { return {-1, 1}; }                   // which it never leaves
+//         in::seabed::height_range range() const { return {-1, 1}; }                   // bounds of all heights
 //     };
 //
 // `kind` is one of the library's labels or a label with properties. Seabeds of several labels write them in
 // `row(line, heights, types)`, where `types` may be empty, and list them in `legend()`. Where parts are worth computing
-// once (wave vectors, octaves), `prepare()` returns a sampler that has `row` and `range` in the model's stead.
-// Optional: `sink_depth()`, see there.
+// once (wave vectors, octaves), `prepare()` returns a sampler, whose `row` and `range` are used instead of the model's.
+// Optional: `sink_depth()`, see `sink_depth_of`.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -8303,8 +8304,8 @@ struct scanline {
     double origin = 0;       ///< x of sample 0 of the whole row
     double spacing = 1;      ///< >= 0
     std::int64_t first = 0;  ///< index in the whole row of sample 0 here; may be negative
-    /// Metres between the vertices of the grid that the row belongs to: relief that the grid can't resolve fades out
-    /// (see `band_limit_gain`). 0: no relief fades.
+    /// Metres between the vertices of the grid that the row belongs to: random relief too fine for it fades out (see
+    /// `band_limit_gain`), heightfields and edits do not. 0: no relief fades.
     double grid_spacing = 0;
 
     INSONIFY_MEMBER double x(std::size_t i) const { return origin + spacing * static_cast<double>(number(i)); }
@@ -8445,17 +8446,17 @@ struct with_kind {
     height_range range() const requires(bounded_sampler<S>) { return heights_only.range(); }
 };
 
-/// @throws invalid_input for a range with its ends exchanged, or with an infinite end: that of models that state none
+/// @throws invalid_input if the ends are in the wrong order or infinite, as those of a model without range()
 inline void require_finite(const height_range& range) {
     const bool is_empty = range.lowest > range.highest;  // NaN is not
     if (is_empty && numeric::is_finite(range.lowest - range.highest))
         refuse("range().lowest of the seabed", range.lowest, "at most range().highest, " + to_text(range.highest));
     require(is_empty || numeric::is_finite(range.highest - range.lowest), "range() of the seabed",
             numeric::is_finite(range.highest) ? range.lowest : range.highest,
-            "finite heights that it never leaves (a model without `range()` states none)");
+            "finite bounds of all heights (a model without range() has none)");
 }
 
-/// @throws invalid_input for a sonar below all of the seabed, as where a depth is given for a height
+/// @throws invalid_input for a sonar below the whole seabed: probably a depth was passed as a height
 inline void require_above(const height_range& range, std::string_view name, double altitude) {
     require(range.empty() || altitude > range.lowest, name, altitude,
             "above the seabed's lowest height, " + to_text(range.lowest + 0.0));  // not -0
@@ -8591,7 +8592,8 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input for parameters of the model out of their range, or a position beyond 1e9 m
 template <model M>
 ground at(const M& m, double x, double y) {
-    // Cells of the relief are counted in integers. Names of arguments are strings: none is made for valid positions.
+    // Cells of the relief are counted in integers. Tested here first: require_position allocates the names of
+    // arguments.
     if (!(x >= -1e9 && x <= 1e9 && y >= -1e9 && y <= 1e9)) detail::require_position("position", {x, y});
     ground result{};
     seabed::prepare(m).row({.y = y, .origin = x}, {&result.height, 1}, {&result.kind, 1});
@@ -8813,13 +8815,14 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-/// Random relief whose 2-D spectrum falls as a power of the wave number, W(K) ~ K^-exponent between two wavelengths.
+/// Random relief whose 2-D spectrum falls as a power of the wave number, W(K) ~ K^-exponent, from wavelengths of about
+/// 1.9 `longest` down to the smallest cell (half power at both).
 ///
 /// Measured exponents of sea floors are 2.4 to 3.9, 3.25 where nothing is known: APL-UW High-Frequency Ocean
 /// Environmental Acoustic Models Handbook. TR 9407, 1994 (eqs. 7-8).
 struct roughness {
     float rms = 0.01f;       ///< metres, 0 to below 10^6; 0 costs nothing
-    float longest = 1.0f;    ///< metres, below 10^6: cell of the coarsest octave, half its wavelength
+    float longest = 1.0f;    ///< metres, below 10^6: cell of the coarsest octave, whose waves are 1 to 3.5 cells long
     float shortest = 0.04f;  ///< metres, 0.0001 to longest: no octave has smaller cells
     float exponent = 3.25f;  ///< in [2, 4]
 
@@ -8896,8 +8899,8 @@ INSONIFY_ARITHMETIC_END
 // World-fixed lattices: coordinates of positions on a lattice, and random bits for each cell.
 //
 // Random draws are keyed by lattice cell, so that a position has the same relief in any grid, tile or order of
-// evaluation. Cells are computed in double and only fractions of a cell in float: precision at 10^7 m from the origin
-// is that at the origin.
+// evaluation. Cells are computed in double and only fractions of a cell in float: for cells of 3 cm or more, precision
+// at 10^7 m from the origin is that at the origin.
 //
 // Based on: Guy L. Steele, Doug Lea, Christine H. Flood. Fast Splittable Pseudorandom Number Generators. OOPSLA, 2014
 // (the finaliser "variant 13"). Chris Wellons. Prospecting for Hash Functions. 2018 (the 32-bit finaliser "lowbias32").
@@ -9017,14 +9020,14 @@ namespace seabed::detail::inline INSONIFY_FLAGS {
 
 using insonify::detail::dispatch;
 
-/// The part of a row that is processed at a time: its positions, padded with the last to whole vectors.
+/// Positions of up to `chunk` samples of a row, padded to whole vectors with the last one.
 struct stretch {
-    static constexpr std::size_t padded = chunk;  // which is a multiple of every lane count
+    static constexpr std::size_t padded = chunk;  // a multiple of every lane count
 
     double y, spacing;
     double grid_spacing;                       ///< see scanline
     std::size_t count;                         ///< at least 1
-    alignas(32) std::array<double, padded> x;  ///< rising
+    alignas(32) std::array<double, padded> x;  ///< ascending
 
     stretch(const scanline& line, std::size_t samples)
         : y(line.y), spacing(line.spacing), grid_spacing(line.grid_spacing), count(samples) {
@@ -9441,7 +9444,7 @@ struct trawl_marks {
     float depth = 0.06f;  ///< metres, >= 0
     float width = 0.5f;   ///< metres, from 0.001: between the tops of the berms
     int directions = 2;   ///< 1 to 8: number of directions of towing
-    float length = 150;   ///< metres, from 0.001: typical length of a furrow
+    float length = 150;   ///< metres, from 0.001: the shortest furrow; half have this length, the mean is twice it
 
     friend bool operator==(const trawl_marks&, const trawl_marks&) = default;
 };
@@ -9592,9 +9595,9 @@ INSONIFY_ARITHMETIC_END
 // psi(x) = sum_n exp i(k_n . x + phi_n), drives a profile of constant amplitude: height = (eta / 2) cos arg psi. Crests
 // fork at the zeros of psi, around which the phase winds once.
 //
-// The envelope psi exp(-i k_0 . x) varies slowly. Along a row it is summed on a lattice several times coarser than the
-// ripples and interpolated; across rows it is exact. The lattice is fixed to the world: a height depends on seed and
-// position alone.
+// The envelope psi exp(-i k_0 . x) varies slowly. Along a row it is summed on a lattice of at most one wavelength (a
+// third of it by default), coarser than the samples of a picture, and interpolated; across rows it is exact. The
+// lattice is fixed to the world: a height depends on seed and position alone.
 //
 // Based on: Dajun Tang, Frank S. Henyey, Brian T. Hefner, Peter A. Traykovski. Simulating Realistic-Looking Sediment
 // Ripple Fields. IEEE Journal of Oceanic Engineering 34, 2009 (why ripples are not Gaussian).
@@ -9874,9 +9877,14 @@ class trawl_furrows {
     INSONIFY_INLINE void add_lanes(const stretch& part, float* values) const {
         const float band_gain = band_limit_gain(2 * width_, part.grid_spacing);  // a furrow between its berms
         if (band_gain == 0) return;
-        for (std::size_t n = 0; n < families_.size(); ++n)
-            for (std::size_t i = 0; i < part.whole(); i += N)
-                add_family<N>(families_[n], n, band_gain, part, i, values + i);
+        for (std::size_t n = 0; n < families_.size(); ++n) {
+            const family& f = families_[n];
+            if (N * part.spacing * f.per_strip <
+                0x1p30)  // strips are counted from the group's first sample, in 32 bits
+                for (std::size_t i = 0; i < part.whole(); i += N) add_family<N>(f, n, band_gain, part, i, values + i);
+            else
+                for (std::size_t i = 0; i < part.count; ++i) add_family<1>(f, n, band_gain, part, i, values + i);
+        }
     }
 
     template <int N>
@@ -9886,7 +9894,7 @@ class trawl_furrows {
         using words = lanes<std::uint32_t, N>;
         using ints = lanes<std::int32_t, N>;
         const double across = part.y * f.cosine * f.per_strip;
-        const std::int64_t first = numeric::floor_to_int(across - part.x[0] * f.sine * f.per_strip);
+        const std::int64_t first = numeric::floor_to_int(across - part.x[i] * f.sine * f.per_strip);
         lanes<float, N> distance, shift, bends, sine, cosine;
         ints cell;
         locate<N>(distance, cell, &part.x[i], -f.sine * f.per_strip, across, static_cast<double>(first));
@@ -9964,7 +9972,8 @@ struct mud {
     /// @throws invalid_input for parameters out of their range
     INSONIFY_TAGGED_ONCE any_sampler prepare() const;
     INSONIFY_MEMBER float sink_depth() const {
-        return (std::max)((std::max)(mound_height, pock_depth), 2 * surface.rms);
+        const float furrows = trawls.density > 0 ? trawls.depth : 0;
+        return (std::max)({mound_height, pock_depth, furrows, 2 * surface.rms});
     }
 };
 
@@ -10035,12 +10044,14 @@ namespace seabed {
 
 /// Rippled sand. The first six parameters are those of `ripple_system`.
 struct ripples {
-    float wavelength = 0.8f;               ///< metres, 0.0001 to 10^6: from crest to crest; nature has 0.05 to 1.5
-    float steepness = 0.11f;               ///< in [0, 0.5]: height / wavelength; nature has 0.05 to 0.2
-    float direction = 0;                   ///< radians from +x: across the crests
-    float spread = 0.09f;                  ///< radians, in [0, 0.5]: of the direction
-    float bandwidth = 0.09f;               ///< in [0, 0.25]: of the wave number, relative
-    float sharpness = 0.25f;               ///< in [0, 0.9]: of the crests, 0 for a sinusoid
+    float wavelength = 0.8f;  ///< metres, 0.0001 to 10^6: from crest to crest; nature has 0.05 to 1.5
+    float steepness = 0.11f;  ///< in [0, 0.5]: height / wavelength; nature has 0.05 to 0.2
+    float direction = 0;      ///< radians from +x: across the crests
+    float spread = 0.09f;     ///< radians, in [0, 0.5]: of the direction
+    float bandwidth = 0.09f;  ///< in [0, 0.25]: of the wave number, relative
+    /// In [0, 0.9]: of the crests, 0 for a sinusoid. The mean level lies below the datum: by 0.06 of the height at
+    /// 0.25, by 0.31 at 0.9.
+    float sharpness = 0.25f;
     ripple_system second{.steepness = 0};  ///< a second system that crosses the first; none if its steepness is 0
     roughness surface{.rms = 0.0025f, .longest = 0.4f};  ///< added to the ripples
     std::uint64_t seed = 1;
@@ -10318,8 +10329,8 @@ struct rock {
     float smallest = 0.3f;   ///< metres, in [0.001, block]: spacing of the smallest
     float sizes = 2.2f;      ///< in [0, 4]: exponent of the numbers of blocks; at 2 each class covers the same area
     float fracture = 0.5f;   ///< in [0, 1]: fraction of lattice cells that hold a block of the most frequent size
-    float steepness = 2.5f;  ///< > 0: slope of the walls of blocks, 1 is 45 degrees, where none is buried: burial
-                             ///< scales it by 0.3 to 0.8
+    float steepness = 2.5f;  ///< > 0: slope of a block's walls before burial, 1 is 45 degrees. Burial leaves 0.3 of it
+                             ///< beside outcrops, 0.8 on them; blocks of several sizes and outcrop faces add up
     roughness surface{.rms = 0.012f, .longest = 0.8f, .shortest = 0.08f};
     std::uint64_t seed = 1;
     type kind = type::rock;
@@ -10448,9 +10459,10 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/seabed/sediment.hpp --------------------------------------------------------------
 // Sediments by name or grain size: one word sets relief, brightness and speckle together (rows in registry.hpp).
 //
-// A sediment is a label too: models of that label get the table's brightness and speckle by default. All values are
-// relative. Levels and roughness are for 10 to 100 kHz; a side-scan sonar's 300 to 900 kHz extrapolates
-// them. The report gives 3 dB for well known sands and silts, 10 dB for rock. Shapes of speckle are illustrative.
+// A sediment is also a label: models with that label get the table's brightness and speckle by default. All values are
+// relative. Levels and roughness are those of APL-UW TR 9407 (see registry.hpp) for 10 to 100 kHz, extrapolated to a
+// side-scan sonar's 300 to 900 kHz. The report states an uncertainty of 3 dB for well-known sands and silts, 10 dB for
+// rock. Speckle shapes are illustrative.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -10797,9 +10809,9 @@ struct material {
     float reflectivity = 0.5f;  ///< relative, 0 or more
 };
 
-/// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear, finite,
-/// 0 or more. A law may also have `in_lanes(into, s)`, which computes several pixels at a time. A `validate(law)` that
-/// is found by its type is called before anything is drawn.
+/// `law(s)` is the backscatter at s, the sine of the grazing angle on the surface (the cosine of incidence), in [0, 1].
+/// It is linear, finite and 0 or more. An optional `in_lanes(into, s)` computes several pixels at a time; an optional
+/// `validate(law)`, found by argument-dependent lookup, is called before drawing.
 template <class L>
 concept backscatter_law = requires(const L& law, float s) {
     { law(s) } -> std::convertible_to<float>;
@@ -10815,7 +10827,8 @@ struct lambert {
 };
 
 /// Lambert's law for backscattered intensity, s^2 (K. V. Mackenzie. Bottom Reverberation for 530- and 1030-cps Sound in
-/// Deep Water. JASA 33, 1961, without its level): both the sound that arrives and the sound that returns spread by s.
+/// Deep Water. JASA 33, 1961, without its level): one factor s for the projected area that intercepts the sound, one
+/// for the radiation that it scatters back.
 struct lambert_backscatter {
     INSONIFY_MEMBER float operator()(float s) const { return s * s; }
     template <class Lanes>
@@ -10829,7 +10842,8 @@ struct lambert_backscatter {
 /// Seeliger's law where sound comes and returns along one line: D. R. Jackson, M. D. Richardson. High-Frequency
 /// Seafloor Acoustics, 2007, chapter 14), and the mirror-like echo of facets near normal incidence, which makes the
 /// bright band below the sonar (P. Beckmann, A. Spizzichino. The Scattering of Electromagnetic Waves from Rough
-/// Surfaces, 1963, chapter 5; Jackson and Richardson, chapter 13: Kirchhoff approximation).
+/// Surfaces, 1963, chapter 5; Jackson and Richardson, chapter 13: the high-frequency Kirchhoff approximation, without
+/// its factor 1 / cos^4(incidence), which is unbounded at grazing incidence).
 struct facet_backscatter {
     float facets = 4;     ///< echo at normal incidence over that of Lambert's law, >= 0
     float slope = 0.15f;  ///< rms slope of the facets, above 0: smooth mud 0.05, sand 0.1 to 0.2, gravel 0.3
@@ -10899,7 +10913,7 @@ struct display {
 };
 
 /// Gray values by decibels: black at `range` below white, white at `white`, even steps between. NaN, 0 and below are
-/// black. Sonars record over 60 to 120 dB and show 20 to 50 of them.
+/// black. Sonars record a dynamic range of 60 to 120 dB; displays show 20 to 50 dB of it.
 struct decibel_display {
     float white = 6;   ///< intensity shown as white, above 0
     float range = 40;  ///< decibels from black to white, above 0, at most 400
@@ -10930,7 +10944,8 @@ enum class display_scale { power, amplitude, decibels };
 }  // namespace INSONIFY_FLAGS
 
 /// A contrast stretch by the picture's own percentiles, like "auto" in survey software: about `black_fraction` of the
-/// finite pixels is black, and about `white_fraction` white. NaN is black, infinity white.
+/// finite pixels is black, and about `white_fraction` white. The decibel scale takes the percentiles of the positive
+/// pixels alone, since shadows and the water column are 0. NaN is black, infinity white.
 struct automatic_display {
     display_scale scale = display_scale::amplitude;
     float black_fraction = 0.01f;  ///< fraction of the pixels, 0 to 0.49
@@ -10949,7 +10964,7 @@ struct automatic_display {
         values.reserve(picture.size());
         for (int y = 0; y < picture.height(); ++y)
             for (const float v : picture.row(y))
-                if (numeric::is_finite(v)) values.push_back(v);
+                if (numeric::is_finite(v) && (v > 0 || scale != display_scale::decibels)) values.push_back(v);
         const auto quantile = [&](double share) {
             const auto at =
                 values.begin() + numeric::floor_to_int(share * static_cast<double>(values.size() - 1) + 0.5);
@@ -11626,7 +11641,8 @@ inline void validate(const overhead& rig) {
     require(rig.grazing >= 1e-9f && static_cast<double>(rig.grazing) <= numeric::pi / 2 + 1e-7, "overhead.grazing",
             rig.grazing, "10^-9 to pi / 2 radians");
     detail::require_angle("overhead.light_azimuth", rig.light_azimuth);
-    require(rig.light_distance > 0, "overhead.light_distance", rig.light_distance, "above 0 metres");
+    require(rig.light_distance > 0 && (rig.light_distance <= 1e15f || !numeric::is_finite(rig.light_distance)),
+            "overhead.light_distance", rig.light_distance, "above 0 and at most 10^15 metres, or infinite");
     require_not_negative("overhead.intensity", rig.intensity);
     require_not_negative("overhead.sky", rig.sky);
     require_not_negative("overhead.ambient", rig.ambient);
@@ -11753,8 +11769,9 @@ struct render_options {
     Shadow shadow{};
     Law law{};
     double cell = 0;  ///< metres between the vertices at which the seabed is sampled; 0: two pixels on level ground
-    /// How far towards the light the seabed may cast from, at most, in longer sides of the picture. Less is sampled if
-    /// its heights throw no shadow that far; with the light below 1 degree, rock casts shadows from farther.
+    /// Largest distance towards the light at which the seabed can cast shadows into the picture, in multiples of the
+    /// picture's longer side. Less is sampled if the seabed is too low to cast that far. The default covers
+    /// `seabed::rock` under the default rig down to a grazing angle of 0.3 degrees.
     float reach = 8;
     /// See draw_options. Finer with shadows, as the triangle that a pixel shows decides whether it faces the light.
     int subpixel_bits = std::is_same_v<Shadow, shadow::none> ? 8 : 12;
@@ -17176,7 +17193,7 @@ exact_occlusion exact::build(std::span<const caster> casters, const any_light& l
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/detail/casting_ground.hpp --------------------------------------------------
-// The ground that can throw a shadow on points that lie above a rectangle.
+// The ground that can cast a shadow on points that lie above a rectangle.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -17184,12 +17201,13 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The rectangle, extended towards the light to all ground that can throw a shadow on its points.
+/// The rectangle, extended towards the light to all ground that can cast a shadow on its points.
 ///
 /// A ray from the lowest point to a parallel light is above the highest ground after (highest - lowest) cot(elevation)
-/// metres; to a point light, after the fraction (highest - lowest) / (light's height - lowest) of the way. For an
-/// extended light, the corners of a square around it are tried: the distance is a quotient of linear functions of the
-/// position on the light, so its maximum is in a corner.
+/// metres; to a point light, after the fraction (highest - lowest) / (light's height - lowest) of the way. An extended
+/// light is tried at the corners of a square around it: if all of it is above the ground that may cast, the distance is
+/// a quotient of linear functions of the position on the light, with its maximum in a corner; else the ground is
+/// extended to below the light, or by `longest`.
 /// @param range   heights of the lowest point and of the highest ground
 /// @param light   in the frame of the rectangle; the disc of a point light faces the origin
 /// @param radius  of the light over its distance
@@ -17206,6 +17224,8 @@ inline ground_rect casting_ground(const ground_rect& points, const seabed::heigh
         return shadow::toward_disc(frame.to_light(), frame.travel(), disc_offset);
     };
     const auto clamped = [&](double way) { return (std::max)(-longest, (std::min)(longest, way)); };
+    const double lowest_light = (std::min)(light_at({0, -radius}).z, light_at({0, radius}).z);
+    const bool is_above = lowest_light > (source != nullptr ? range.highest : 0);
     for (const double across : {-radius, radius})
         for (const double up : {-radius, radius}) {
             const glm::dvec3 to = light_at({across, up});
@@ -17213,10 +17233,10 @@ inline ground_rect casting_ground(const ground_rect& points, const seabed::heigh
                 for (const double from : {points.lower[axis], points.upper[axis]}) {
                     double way;
                     if (source != nullptr) {
-                        const double share = to.z > range.highest ? relief / (to.z - range.lowest) : 1;
-                        way = share * (to[axis] - from);
+                        const double fraction = is_above ? relief / (to.z - range.lowest) : 1;
+                        way = fraction * (to[axis] - from);
                     } else {
-                        way = to.z > 0 ? relief / to.z * to[axis] : longest * (to[axis] < 0 ? -1 : 1);
+                        way = is_above ? relief / to.z * to[axis] : longest * (to[axis] < 0 ? -1 : 1);
                     }
                     const double end = from + clamped(way);
                     all.lower[axis] = (std::min)(all.lower[axis], end);
@@ -18260,7 +18280,7 @@ struct grid {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// @param advice  how users of the caller get fewer
+/// @param advice  for the message: how to reduce the number of vertices
 /// @throws invalid_input for more vertices than a scene may sample: with their mesh, so many take 14 GB
 inline void require_vertices(double count, std::string_view advice) {
     if (!(count <= 0x1p28)) refuse("vertices of the seabed", count, "at most 2^28; " + std::string(advice));
@@ -18307,8 +18327,8 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
     detail::require(where.height >= 2, "grid.height", where.height, "at least 2");
     detail::require_positive_metres("grid.spacing", where.spacing);
     const glm::dvec2 origin = where.origin + where.spacing * glm::dvec2(where.first);
-    detail::require_position("first vertex of the grid", origin);
-    detail::require_position("last vertex of the grid",
+    detail::require_position("vertex (0, 0)", origin);
+    detail::require_position("vertex (width - 1, height - 1)",
                              origin + where.spacing * glm::dvec2(where.width - 1, where.height - 1));
     heightfield result{.heights = image<float>(where.width, where.height, uninitialized, memory),
                        .origin = origin,
@@ -18557,11 +18577,11 @@ inline namespace INSONIFY_FLAGS {
 /// The surface of a heightfield as a mesh: two triangles per cell, counter-clockwise from above, cut from vertex (i, j)
 /// to (i + 1, j + 1); 2 (width - 1) (height - 1) triangles if no height is missing.
 ///
-/// Positions are relative to the heightfield's origin, x in [0, spacing (width - 1)], so that float holds them wherever
-/// the field lies: place the mesh at `field.origin`. Vertex (i, j) is number j width + i. Normals are those that
-/// `normals` gives. Vertices without data lie at z = 0 and belong to no triangle.
-/// @param first  index of vertex (0, 0) in a larger grid: positions are spacing (first + (i, j)), and meshes of parts
-///               of one grid share their vertices to the last bit
+/// Positions are spacing (first + (i, j)), relative to an origin that the caller places, so that float holds them
+/// wherever the field lies: place the mesh at `field.origin`, or with `first` at the larger grid's origin. Vertex (i,
+/// j) is number j width + i. Normals are those of `normals`. Vertices without data lie at z = 0 and belong to no
+/// triangle.
+/// @param first  index of vertex (0, 0) in a larger grid: meshes of its parts share their vertices to the last bit
 /// @throws invalid_input as `validate`, and for 2^32 vertices or more
 template <executor_argument Executor = serial_executor>
 mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}, glm::ivec2 first = {0, 0}) {
@@ -18994,7 +19014,7 @@ class overhead_renderer {
         const int longer = (std::max)(rig.size.x, rig.size.y);
         const double spacing = options_.cell > 0 ? options_.cell : longer_side(view_) / ((longer + 1) / 2);
         require(spacing >= min_cell(view_) && spacing < 1e6, "cell", spacing,
-                "at least a 32768th of the picture, and below 10^6 metres");
+                "at least 1/32768 of the picture's longer side, and below 10^6 metres");
 
         seabed::height_range range = scene_.seabed.prepare().range();
         seabed::detail::require_finite(range);
@@ -19303,7 +19323,7 @@ inline namespace INSONIFY_FLAGS {
 struct probe {
     int chips = 4;     ///< their number, distributed over the large picture
     int pixels = 128;  ///< along a side
-    /// Cells per pixel of the ground truth, and the most that settings take; grids of more than half as many are
+    /// Cells per pixel of the ground truth, and the largest that settings may have; grids of more than half of it are
     /// compared with a truth of twice as many.
     double finest = 4;
     double usable_fraction = 0.7;  ///< of the budget that they may use; the rest is for other parts of the seabed
@@ -19445,8 +19465,7 @@ INSONIFY_ARITHMETIC_END
 //
 // The tolerance for a curved target's facets has a closed form in the positions of camera and light. Errors that depend
 // on the seabed are measured: a few small pictures are compared with ones of a finer grid, from coarse to fine, and the
-// first ones within the budget decide. That takes as long as a few large pictures, once for all pictures of a rig and a
-// kind of seabed.
+// first grid within the budget is chosen. This takes as long as a few large pictures, once per rig and kind of seabed.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -19713,9 +19732,9 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/filter/poisson.hpp ---------------------------------------------------------------
 // Shot noise: replaces each pixel by a Poisson count with the pixel as its mean.
 //
-// Means below 10 are sampled by inversion, larger ones by transformed rejection with squeeze, in 1.1 to 1.2 trials.
-// Both follow the Poisson distribution to within the 2^-32 resolution of their uniform numbers for means up to 1e6, and
-// to 2e-7 at 1e9.
+// Means below 10 are sampled by inversion, larger ones by transformed rejection with squeeze, in 1.33 trials at a mean
+// of 10, 1.17 at 100 and 1.12 from 10^6. Both follow the Poisson distribution to within the 2^-32 resolution of their
+// uniform numbers for means up to 1e6, and to 2e-7 at 1e9.
 //
 // Based on: Wolfgang Hormann. The Transformed Rejection Method for Generating Poisson Random Variables. Insurance:
 // Mathematics and Economics 12, 1993 (algorithm PTRS).
@@ -20042,16 +20061,27 @@ inline void clip_ears(const flat_polygon& polygon, std::uint32_t count, std::vec
 /// @returns false for a concave polygon beyond ear_clipping_limit, of which nothing is appended
 inline bool append_triangles(std::span<const glm::vec3> corners, std::vector<glm::uvec3>& triangles) {
     const auto count = static_cast<std::uint32_t>(corners.size());
+    std::uint32_t start = 0;
     if (count > 3) {
         const flat_polygon polygon(corners);
+        const auto turn_at = [&](std::uint32_t i) {
+            return polygon.orient2d((i + count - 1) % count, i, (i + 1) % count);
+        };
         for (std::uint32_t i = 0; i < count; ++i) {
-            if (!(polygon.orient2d(i, (i + 1) % count, (i + 2) % count) < 0)) continue;
+            if (!(turn_at(i) < 0)) continue;
             if (count > ear_clipping_limit) return false;
             clip_ears(polygon, count, triangles);
             return true;
         }
+        // A fan from a corner beside a straight one would have a triangle without area.
+        for (std::uint32_t i = 0; i < count; ++i)
+            if (turn_at((i + count - 1) % count) > 0 && turn_at((i + 1) % count) > 0) {
+                start = i;
+                break;
+            }
     }
-    for (std::uint32_t i = 2; i < count; ++i) triangles.emplace_back(0u, i - 1, i);
+    for (std::uint32_t i = 2; i < count; ++i)
+        triangles.emplace_back(start, (start + i - 1) % count, (start + i) % count);
     return true;
 }
 
@@ -20060,9 +20090,9 @@ inline bool append_triangles(std::span<const glm::vec3> corners, std::vector<glm
 inline namespace INSONIFY_FLAGS {
 
 /// Appends `corners.size() - 2` triangles that cover the polygon and face as it does, as indices of its corners.
-/// Exact for simple polygons, also slightly non-planar ones; a self-intersecting one gets some triangulation. Nothing
-/// is appended for fewer than three corners. The time is quadratic for concave polygons, which may have 4096 corners,
-/// and linear for convex ones, which may have any number.
+/// Exact for simple polygons, also slightly non-planar ones, of which straight corners may yield triangles without
+/// area; a self-intersecting one gets some triangulation. Nothing is appended for fewer than three corners. The time is
+/// quadratic for concave polygons, which may have 4096 corners, and linear for convex ones, which may have any number.
 /// @throws invalid_input for a concave polygon with more than 4096 corners
 inline void triangulate(std::span<const glm::vec3> corners, std::vector<glm::uvec3>& triangles) {
     if (!detail::append_triangles(corners, triangles))
@@ -22082,7 +22112,8 @@ inline mesh to_mesh(const lobster_pot& p) {
     const int slats = 5;
     for (int i = 0; i < slats; ++i) {
         const double x = -half + 2 * radius + (2 * half - 4 * radius) * i / (slats - 1.0);
-        detail::append_box(body, {x - 1.5 * radius, -side, 0.2 * radius}, {x + 1.5 * radius, side, 1.7 * radius});
+        // Narrower than the pitch of 3 radii at the thickest bar, so that adjacent slats share no edge.
+        detail::append_box(body, {x - 1.4 * radius, -side, 0.2 * radius}, {x + 1.4 * radius, side, 1.7 * radius});
     }
 
     std::vector<glm::dvec3> path;
@@ -22338,7 +22369,7 @@ inline namespace INSONIFY_ABI {
 /// A tyre without its wheel, its axis along z, lying on z = 0: a hollow ring that is open towards its axis.
 ///
 /// The defaults are a car's 195/65 R15 (ISO 4000-1): 195 mm wide, on a rim of 15 inches, and as high as 65 % of its
-/// width, so 381 + 2 * 0.65 * 195 = 634 mm across. A lorry's 315/80 R22.5 (ISO 4209-1) is 1.076 m, 0.315 m, 0.572 m.
+/// width, so 381 + 2 * 0.65 * 195 = 634.5 mm across. A lorry's 315/80 R22.5 (ISO 4209-1) is 1.076 m, 0.315 m, 0.572 m.
 struct tyre {
     float diameter = 0.634f;      ///< outside, metres
     float width = 0.195f;         ///< metres, 0.001 to 10 diameters
@@ -22594,7 +22625,7 @@ inline namespace INSONIFY_FLAGS {
 
 /// Random patches: where a noise exceeds a threshold.
 struct patches {
-    float coverage = 0.5f;  ///< in [0, 1]: fraction of the area, over many patches
+    float coverage = 0.5f;  ///< in [0, 1]: fraction of the area inside the outlines, over many patches
     float size = 12.0f;     ///< metres, > 0: scale of the patches
 };
 
@@ -22671,8 +22702,8 @@ inline double signed_distance(const polygon& shape, const glm::dvec2& p) {
 }
 /// Signed distances of a stencil's pixels from its border, in pixels. Each pixel takes the nearest of the points where
 /// the border crosses the lattice that its neighbours have found, in a sweep down and one up: Per-Erik Danielsson.
-/// Euclidean Distance Mapping. Computer Graphics and Image Processing 14, 1980. Far away, errors are a fraction of a
-/// pixel.
+/// Euclidean Distance Mapping. Computer Graphics and Image Processing 14, 1980. Errors are within a quarter of a pixel
+/// for a smooth border, half of one for a binary image.
 inline image<float> border_distances(const image<float>& coverage) {
     constexpr float nowhere = 1e15f;
     const int width = coverage.width(), height = coverage.height();
@@ -22780,7 +22811,9 @@ class area_sampler {
     /// Writes the signed distances of a stretch's positions, metres, positive inside.
     void signed_distances(const stretch& part, stretch_values& values) const {
         values.fill(0);
-        noise_.add(part, values);
+        stretch unlimited = part;  // outlines do not fade: without fine octaves they would enclose another area
+        unlimited.grid_spacing = 0;
+        noise_.add(unlimited, values);
         std::visit(
             [&](const auto& shape) {
                 using shape_type = std::remove_cvref_t<decltype(shape)>;
@@ -22946,7 +22979,7 @@ namespace seabed {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A height within 1000 km; NaN for anything else, such as codes for missing data.
+/// A height within 1000 km; NaN for anything else, such as 1e10 or DBL_MAX for missing data.
 inline float height_or_nan(double metres) {
     return metres > -1e6 && metres < 1e6 ? static_cast<float>(metres) : (std::numeric_limits<float>::quiet_NaN)();
 }
@@ -23101,7 +23134,8 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
 /// Reads soundings, an `x y z` on each line, onto a grid: each vertex has the mean of the soundings that are nearest to
 /// it, or NaN if there is none. x and y are metres: project longitudes and latitudes first, for example to UTM. Lines
 /// end with LF, CR LF or CR. Lines that do not begin with a number or have an empty cell for z are skipped, and so is
-/// the rest of a line after z.
+/// the rest of a line after z. A z that is NaN or beyond 1000 km counts as missing. Other codes, such as -9999, are
+/// taken as heights: remove those lines first.
 /// @param spacing  metres between vertices, > 0 and < 10^6; vertices are multiples of it
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors
@@ -23389,9 +23423,11 @@ namespace seabed {
 struct blend {
     any first = ripples{};
     any second = flat{};
-    float coverage = 0.5f;  ///< in [0, 1]: fraction of the area that is `first`, over many patches
-    float patch = 12.0f;    ///< metres, > 0: scale of the patches
-    float border = 0.6f;    ///< metres, 0.001 to `patch`: typical width of borders, about a ripple or two
+    /// In [0, 1]: fraction of the area inside the outlines, over many patches. Labels follow the upper surface: within
+    /// the border the higher bottom wins, so rock in sand is labelled on 0.34 for 0.3, ripples in sand on 0.29.
+    float coverage = 0.5f;
+    float patch = 12.0f;  ///< metres, > 0: scale of the patches
+    float border = 0.6f;  ///< metres, 0.001 to `patch`: typical width of borders, about a ripple or two
     std::uint64_t seed = 1;
 
     /// @throws invalid_input for parameters out of their range
@@ -23622,8 +23658,9 @@ struct flatten {
     float level = 0;   ///< metres above the datum
 };
 
-/// Removes relief shorter than one to two lengths; beside gaps the ground stays as it is. Evaluates 16 rows of the
-/// ground for one: where several overlap, each is 16 times as slow as the one before.
+/// Smooths the ground by a cubic B-spline: of waves of one length 2 % is left, of two lengths 19 %, of four 65 %.
+/// Beside gaps the ground stays as it is. Evaluates 16 rows of the ground for one: of overlapping ones, each takes 16
+/// times as long as the one before.
 struct smooth {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 1;      ///< metres, > 0 and at most 2^17 lengths: with its edge
@@ -23782,7 +23819,8 @@ inline float height_after(const heap& e, const glm::dvec2& p, float height) {
 
 /// The range of heights after an edit, for heights in a given range before it.
 inline height_range added(const height_range& ground, double lowest, double highest) {
-    return {ground.lowest + (std::min)(1.00001 * lowest, 0.0), ground.highest + (std::max)(1.00001 * highest, 0.0)};
+    return with_rounding(
+        {ground.lowest + (std::min)(1.00001 * lowest, 0.0), ground.highest + (std::max)(1.00001 * highest, 0.0)});
 }
 inline height_range including(const height_range& ground, double to) {
     return merge(ground, {to, to});
@@ -23838,7 +23876,8 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
         ground(scanline{.y = y,
                         .origin = step * static_cast<double>(first),
                         .spacing = step,
-                        .grid_spacing = line.grid_spacing},
+                        // Relief shorter than two nodes, which the spline removes anyway, would alias.
+                        .grid_spacing = (std::max)(line.grid_spacing, step)},
                std::span(nodes));
         for (std::size_t n = 0; n < nodes.size(); ++n) column[n] += up[j] * nodes[n];
     }
@@ -24579,7 +24618,8 @@ inline double slant_shadow_length(double ground, double altitude, double height)
     return numeric::is_finite(tip) ? tip - slant_range(ground, altitude, height) : tip;
 }
 
-/// Apparent position of a raised point after slant-range correction: layover moves it towards the sonar, at most to 0.
+/// Apparent position of a raised point after slant-range correction: layover moves points below twice the altitude
+/// towards the sonar, at most to 0, and points higher than that, or below the seabed, away from it.
 inline double apparent_ground(double ground, double altitude, double height) {
     return ground_range(slant_range(ground, altitude, height), altitude);
 }
@@ -24703,7 +24743,7 @@ struct pulse {
 
 /// The mean intensity of the receiver's noise. Speckle makes it fluctuate.
 struct noise_floor {
-    float intensity = 1e-3f;
+    float intensity = 1e-13f;  ///< before gain, in the unit of the bins: m^2 at 1 m, after source level and losses
     INSONIFY_MEMBER double noise() const { return static_cast<double>(intensity); }
 };
 
@@ -25260,7 +25300,7 @@ class bottom_tiles {
         mark(pings, steps);
         const dynamic_array<tile_run> runs = number_marked();
         const std::size_t tiles = runs.empty() ? 0 : std::size_t{runs.back().slot} + runs.back().count;
-        require(tiles < max_tiles, "seabed tiles", tiles, "below 2^18, which is 17 GB: take larger cells");
+        require(tiles < max_tiles, "seabed tiles", tiles, "below 2^18 (17 GB); use larger cells");
         vertices_.reset(new bottom_vertex[tiles * tile_size]);
         ex.bulk(runs.size(), [&](std::size_t i) { sample(runs[i]); });
         sampled_ += tiles * tile_size;
@@ -26145,7 +26185,8 @@ INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/detail/target_hits.hpp -------------------------------------------
 // First hits of a ping's rays with the targets, and the fraction of each ray's width that they cover: exact for up to
-// max_parts segments per ray, sampled for more.
+// max_parts segments per ray that do not cross each other, sampled for more. Segments that cross within a part, as
+// those of interpenetrating targets, count as whole: the one nearer at the part's middle.
 //
 // The cross-section of the targets with a ping's plane is a set of line segments. Their ends divide each ray's width
 // into parts; in each part the nearest segment is hit, weighted by the part's fraction of the width. A bar
@@ -27251,7 +27292,8 @@ struct seabed_speckle {
     /// field: beside a steady echo it is up to 1.4 times as long; a texture has its own length.
     float along_track = 1;
     float across_track = 1;    ///< the same across the track, in bins
-    float texture_length = 3;  ///< pings and bins between nodes of the texture's lattice, 1 to 1024; 1 / e at 0.4 of it
+    float texture_length = 3;  ///< pings and bins between nodes of the texture's lattice, 1 to 1024. Adjacent pixels
+                               ///< correlate by at most 4/9; 1 / e at 0.4 of the length
     std::uint64_t seed = 1;
 };
 
@@ -27479,7 +27521,7 @@ class tone_sampler {
                                                                     streaks_);
         }
         if (t_.patches != 0) {
-            // Two octaves make ragged outlines, with a soft border.
+            // Two octaves of noise, the second at four times the frequency, make ragged outlines with a soft border.
             const double size = static_cast<double>(t_.patch_size);
             const double field = 0.89442719 * smooth_noise(at.x / size, at.y / size, 0, patches_) +
                                  0.44721360 * smooth_noise(4 * at.x / size, 4 * at.y / size, 1, patches_);
@@ -27508,7 +27550,8 @@ inline void require_within_reach(const ping& p, const std::string& name) {
 template <across_track Axis, class PingOfRow>
 void apply_tone(frame<labels>& r, const PingOfRow& ping_of_row, const side_scan_rig<Axis>& rig, const bottom_tone& tone,
                 executor_ref ex) {
-    require(r.rows.side == rig.side, "rows.side", static_cast<int>(r.rows.side), "the side of the rig");
+    require(r.rows.side == rig.side, "rows.side", static_cast<int>(r.rows.side),
+            rig.side == side::port ? "0, the port side of the rig" : "1, the starboard side of the rig");
     require_equal("rig.bins", rig.bins, r.image.width(), "the recording's width");
     require_sizes(r.labels, r.image.width(), r.image.height(), "that of the image");
     const tone_sampler level(tone);
@@ -27547,7 +27590,7 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 }
 
 /// Applies a tone to a recording: pixels with a seabed label change by the level at their position on the datum.
-/// Targets and the water column stay.
+/// Targets and the water column are unchanged.
 ///
 /// @param r  a result of `render` with this rig, before noise and speckle
 /// @throws invalid_input for a rig or a parameter out of its range, a picture from above, or a recording of another
@@ -27699,9 +27742,10 @@ inline namespace INSONIFY_ABI {
 /// The region of the points that will be tested, and the sampling of the seabed there.
 struct occlusion_bounds {
     bounding_box box;  ///< contains all points, in the world; not empty
-    double cell = 0;   ///< metres between vertices of the seabed; 0: a 512th of the box's longer side, or 0.001 of its
-                       ///< height if more
-    double reach = 8;  ///< how far towards the light the seabed is sampled at most, along either axis, in longer sides
+    double cell = 0;   ///< metres between vertices of the seabed; 0: 1/512 of the longest of the box's sides along x
+                       ///< and y and a thousandth of its height
+    double reach = 8;  ///< largest distance towards the light, along either axis, at which the seabed is sampled, in
+                       ///< multiples of the same length
 };
 
 inline namespace INSONIFY_FLAGS {

@@ -2,8 +2,7 @@
 //
 // The tolerance for a curved target's facets has a closed form in the positions of camera and light. Errors that depend
 // on the seabed are measured: a few small pictures are compared with ones of a finer grid, from coarse to fine, and the
-// first ones within the budget decide. That takes as long as a few large pictures, once for all pictures of a rig and a
-// kind of seabed.
+// first grid within the budget is chosen. This takes as long as a few large pictures, once per rig and kind of seabed.
 #pragma once
 
 #include <insonify/accuracy/seabed_probe.hpp>

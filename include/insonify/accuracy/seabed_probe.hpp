@@ -29,7 +29,7 @@ inline namespace INSONIFY_FLAGS {
 struct probe {
     int chips = 4;     ///< their number, distributed over the large picture
     int pixels = 128;  ///< along a side
-    /// Cells per pixel of the ground truth, and the most that settings take; grids of more than half as many are
+    /// Cells per pixel of the ground truth, and the largest that settings may have; grids of more than half of it are
     /// compared with a truth of twice as many.
     double finest = 4;
     double usable_fraction = 0.7;  ///< of the budget that they may use; the rest is for other parts of the seabed

@@ -1,8 +1,8 @@
 // Shot noise: replaces each pixel by a Poisson count with the pixel as its mean.
 //
-// Means below 10 are sampled by inversion, larger ones by transformed rejection with squeeze, in 1.1 to 1.2 trials.
-// Both follow the Poisson distribution to within the 2^-32 resolution of their uniform numbers for means up to 1e6, and
-// to 2e-7 at 1e9.
+// Means below 10 are sampled by inversion, larger ones by transformed rejection with squeeze, in 1.33 trials at a mean
+// of 10, 1.17 at 100 and 1.12 from 10^6. Both follow the Poisson distribution to within the 2^-32 resolution of their
+// uniform numbers for means up to 1e6, and to 2e-7 at 1e9.
 //
 // Based on: Wolfgang Hormann. The Transformed Rejection Method for Generating Poisson Random Variables. Insurance:
 // Mathematics and Economics 12, 1993 (algorithm PTRS).

@@ -28,7 +28,7 @@ INSONIFY_FUNCTION mesh to_mesh(const cube& shape);
 INSONIFY_FUNCTION mesh to_mesh(const cube& shape) {
     mesh out;
     for (int along = 0; along < 3; ++along) {
-        detail::require_positive("cube.size", shape.size[along]);
+        detail::require_positive("cube.size", 0.5f * shape.size[along]);
         for (const float side : {-1.0f, 1.0f}) {
             // Across the face the axes follow cyclically; on the negative side they change places to face outwards.
             const int u = (along + (side > 0 ? 1 : 2)) % 3;

@@ -101,16 +101,27 @@ inline void clip_ears(const flat_polygon& polygon, std::uint32_t count, std::vec
 /// @returns false for a concave polygon beyond ear_clipping_limit, of which nothing is appended
 inline bool append_triangles(std::span<const glm::vec3> corners, std::vector<glm::uvec3>& triangles) {
     const auto count = static_cast<std::uint32_t>(corners.size());
+    std::uint32_t start = 0;
     if (count > 3) {
         const flat_polygon polygon(corners);
+        const auto turn_at = [&](std::uint32_t i) {
+            return polygon.orient2d((i + count - 1) % count, i, (i + 1) % count);
+        };
         for (std::uint32_t i = 0; i < count; ++i) {
-            if (!(polygon.orient2d(i, (i + 1) % count, (i + 2) % count) < 0)) continue;
+            if (!(turn_at(i) < 0)) continue;
             if (count > ear_clipping_limit) return false;
             clip_ears(polygon, count, triangles);
             return true;
         }
+        // A fan from a corner beside a straight one would have a triangle without area.
+        for (std::uint32_t i = 0; i < count; ++i)
+            if (turn_at((i + count - 1) % count) > 0 && turn_at((i + 1) % count) > 0) {
+                start = i;
+                break;
+            }
     }
-    for (std::uint32_t i = 2; i < count; ++i) triangles.emplace_back(0u, i - 1, i);
+    for (std::uint32_t i = 2; i < count; ++i)
+        triangles.emplace_back(start, (start + i - 1) % count, (start + i) % count);
     return true;
 }
 
@@ -119,9 +130,9 @@ inline bool append_triangles(std::span<const glm::vec3> corners, std::vector<glm
 inline namespace INSONIFY_FLAGS {
 
 /// Appends `corners.size() - 2` triangles that cover the polygon and face as it does, as indices of its corners.
-/// Exact for simple polygons, also slightly non-planar ones; a self-intersecting one gets some triangulation. Nothing
-/// is appended for fewer than three corners. The time is quadratic for concave polygons, which may have 4096 corners,
-/// and linear for convex ones, which may have any number.
+/// Exact for simple polygons, also slightly non-planar ones, of which straight corners may yield triangles without
+/// area; a self-intersecting one gets some triangulation. Nothing is appended for fewer than three corners. The time is
+/// quadratic for concave polygons, which may have 4096 corners, and linear for convex ones, which may have any number.
 /// @throws invalid_input for a concave polygon with more than 4096 corners
 inline void triangulate(std::span<const glm::vec3> corners, std::vector<glm::uvec3>& triangles) {
     if (!detail::append_triangles(corners, triangles))

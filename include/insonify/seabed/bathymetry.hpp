@@ -26,7 +26,7 @@ namespace seabed {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A height within 1000 km; NaN for anything else, such as codes for missing data.
+/// A height within 1000 km; NaN for anything else, such as 1e10 or DBL_MAX for missing data.
 inline float height_or_nan(double metres) {
     return metres > -1e6 && metres < 1e6 ? static_cast<float>(metres) : (std::numeric_limits<float>::quiet_NaN)();
 }
@@ -181,7 +181,8 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
 /// Reads soundings, an `x y z` on each line, onto a grid: each vertex has the mean of the soundings that are nearest to
 /// it, or NaN if there is none. x and y are metres: project longitudes and latitudes first, for example to UTM. Lines
 /// end with LF, CR LF or CR. Lines that do not begin with a number or have an empty cell for z are skipped, and so is
-/// the rest of a line after z.
+/// the rest of a line after z. A z that is NaN or beyond 1000 km counts as missing. Other codes, such as -9999, are
+/// taken as heights: remove those lines first.
 /// @param spacing  metres between vertices, > 0 and < 10^6; vertices are multiples of it
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors

@@ -27,8 +27,9 @@ struct flatten {
     float level = 0;   ///< metres above the datum
 };
 
-/// Removes relief shorter than one to two lengths; beside gaps the ground stays as it is. Evaluates 16 rows of the
-/// ground for one: where several overlap, each is 16 times as slow as the one before.
+/// Smooths the ground by a cubic B-spline: of waves of one length 2 % is left, of two lengths 19 %, of four 65 %.
+/// Beside gaps the ground stays as it is. Evaluates 16 rows of the ground for one: of overlapping ones, each takes 16
+/// times as long as the one before.
 struct smooth {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 1;      ///< metres, > 0 and at most 2^17 lengths: with its edge
@@ -187,7 +188,8 @@ inline float height_after(const heap& e, const glm::dvec2& p, float height) {
 
 /// The range of heights after an edit, for heights in a given range before it.
 inline height_range added(const height_range& ground, double lowest, double highest) {
-    return {ground.lowest + (std::min)(1.00001 * lowest, 0.0), ground.highest + (std::max)(1.00001 * highest, 0.0)};
+    return with_rounding(
+        {ground.lowest + (std::min)(1.00001 * lowest, 0.0), ground.highest + (std::max)(1.00001 * highest, 0.0)});
 }
 inline height_range including(const height_range& ground, double to) {
     return merge(ground, {to, to});
@@ -243,7 +245,8 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
         ground(scanline{.y = y,
                         .origin = step * static_cast<double>(first),
                         .spacing = step,
-                        .grid_spacing = line.grid_spacing},
+                        // Relief shorter than two nodes, which the spline removes anyway, would alias.
+                        .grid_spacing = (std::max)(line.grid_spacing, step)},
                std::span(nodes));
         for (std::size_t n = 0; n < nodes.size(); ++n) column[n] += up[j] * nodes[n];
     }

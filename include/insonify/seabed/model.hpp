@@ -1,17 +1,17 @@
 // The concept of a seabed: heights and labels along rows of world points.
 //
-// A model is a copyable value of two or three members, of the library or of a user:
+// A model is a copyable type with two or three members, the library's or a user's:
 //
 //     struct dunes {
 //         static constexpr in::seabed::type_properties kind{in::seabed::user_type(0), "dunes", 0.6f, {.texture = 8}};
 //         void row(const in::seabed::scanline& line, std::span<float> heights) const;  // metres above the datum
-//         in::seabed::height_range range() const { return {-1, 1}; }                   // which it never leaves
+//         in::seabed::height_range range() const { return {-1, 1}; }                   // bounds of all heights
 //     };
 //
 // `kind` is one of the library's labels or a label with properties. Seabeds of several labels write them in
 // `row(line, heights, types)`, where `types` may be empty, and list them in `legend()`. Where parts are worth computing
-// once (wave vectors, octaves), `prepare()` returns a sampler that has `row` and `range` in the model's stead.
-// Optional: `sink_depth()`, see there.
+// once (wave vectors, octaves), `prepare()` returns a sampler, whose `row` and `range` are used instead of the model's.
+// Optional: `sink_depth()`, see `sink_depth_of`.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
@@ -45,8 +45,8 @@ struct scanline {
     double origin = 0;       ///< x of sample 0 of the whole row
     double spacing = 1;      ///< >= 0
     std::int64_t first = 0;  ///< index in the whole row of sample 0 here; may be negative
-    /// Metres between the vertices of the grid that the row belongs to: relief that the grid can't resolve fades out
-    /// (see `band_limit_gain`). 0: no relief fades.
+    /// Metres between the vertices of the grid that the row belongs to: random relief too fine for it fades out (see
+    /// `band_limit_gain`), heightfields and edits do not. 0: no relief fades.
     double grid_spacing = 0;
 
     INSONIFY_MEMBER double x(std::size_t i) const { return origin + spacing * static_cast<double>(number(i)); }
@@ -187,17 +187,17 @@ struct with_kind {
     height_range range() const requires(bounded_sampler<S>) { return heights_only.range(); }
 };
 
-/// @throws invalid_input for a range with its ends exchanged, or with an infinite end: that of models that state none
+/// @throws invalid_input if the ends are in the wrong order or infinite, as those of a model without range()
 inline void require_finite(const height_range& range) {
     const bool is_empty = range.lowest > range.highest;  // NaN is not
     if (is_empty && numeric::is_finite(range.lowest - range.highest))
         refuse("range().lowest of the seabed", range.lowest, "at most range().highest, " + to_text(range.highest));
     require(is_empty || numeric::is_finite(range.highest - range.lowest), "range() of the seabed",
             numeric::is_finite(range.highest) ? range.lowest : range.highest,
-            "finite heights that it never leaves (a model without `range()` states none)");
+            "finite bounds of all heights (a model without range() has none)");
 }
 
-/// @throws invalid_input for a sonar below all of the seabed, as where a depth is given for a height
+/// @throws invalid_input for a sonar below the whole seabed: probably a depth was passed as a height
 inline void require_above(const height_range& range, std::string_view name, double altitude) {
     require(range.empty() || altitude > range.lowest, name, altitude,
             "above the seabed's lowest height, " + to_text(range.lowest + 0.0));  // not -0
@@ -333,7 +333,8 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input for parameters of the model out of their range, or a position beyond 1e9 m
 template <model M>
 ground at(const M& m, double x, double y) {
-    // Cells of the relief are counted in integers. Names of arguments are strings: none is made for valid positions.
+    // Cells of the relief are counted in integers. Tested here first: require_position allocates the names of
+    // arguments.
     if (!(x >= -1e9 && x <= 1e9 && y >= -1e9 && y <= 1e9)) detail::require_position("position", {x, y});
     ground result{};
     seabed::prepare(m).row({.y = y, .origin = x}, {&result.height, 1}, {&result.kind, 1});

@@ -32,7 +32,8 @@ struct mud {
     /// @throws invalid_input for parameters out of their range
     INSONIFY_TAGGED_ONCE any_sampler prepare() const;
     INSONIFY_MEMBER float sink_depth() const {
-        return (std::max)((std::max)(mound_height, pock_depth), 2 * surface.rms);
+        const float furrows = trawls.density > 0 ? trawls.depth : 0;
+        return (std::max)({mound_height, pock_depth, furrows, 2 * surface.rms});
     }
 };
 

@@ -16,7 +16,7 @@
 #include <iterator>
 #include <string_view>
 
-// Types of relief, with the gray values of the paper's pictures. They are not sediments.
+// Types of relief, with the gray values of the published recipe's pictures (docs/recipe.md). They are not sediments.
 //      label, name, reflectivity, speckle: looks, texture, steady
 #define INSONIFY_RELIEF_TYPES(ROW)           \
     ROW(sand, "sand", 0.45f, {1, 15, 0})     \
@@ -94,7 +94,7 @@ constexpr std::size_t index_of(type t) {
 struct type_properties {
     type label = type::sand;
     std::string_view name;       ///< for manifests and messages; a string literal, or text that outlives its users
-    float reflectivity = 0.45f;  ///< as of a material: relative, that of sand is 0.45
+    float reflectivity = 0.45f;  ///< relative, as a material's; that of sand is 0.45
     speckle_law speckle{};
     friend bool operator==(const type_properties&, const type_properties&) = default;
 };

@@ -27,8 +27,8 @@ struct rock {
     float smallest = 0.3f;   ///< metres, in [0.001, block]: spacing of the smallest
     float sizes = 2.2f;      ///< in [0, 4]: exponent of the numbers of blocks; at 2 each class covers the same area
     float fracture = 0.5f;   ///< in [0, 1]: fraction of lattice cells that hold a block of the most frequent size
-    float steepness = 2.5f;  ///< > 0: slope of the walls of blocks, 1 is 45 degrees, where none is buried: burial
-                             ///< scales it by 0.3 to 0.8
+    float steepness = 2.5f;  ///< > 0: slope of a block's walls before burial, 1 is 45 degrees. Burial leaves 0.3 of it
+                             ///< beside outcrops, 0.8 on them; blocks of several sizes and outcrop faces add up
     roughness surface{.rms = 0.012f, .longest = 0.8f, .shortest = 0.08f};
     std::uint64_t seed = 1;
     type kind = type::rock;

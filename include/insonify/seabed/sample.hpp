@@ -22,7 +22,7 @@ struct grid {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// @param advice  how users of the caller get fewer
+/// @param advice  for the message: how to reduce the number of vertices
 /// @throws invalid_input for more vertices than a scene may sample: with their mesh, so many take 14 GB
 inline void require_vertices(double count, std::string_view advice) {
     if (!(count <= 0x1p28)) refuse("vertices of the seabed", count, "at most 2^28; " + std::string(advice));
@@ -69,8 +69,8 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
     detail::require(where.height >= 2, "grid.height", where.height, "at least 2");
     detail::require_positive_metres("grid.spacing", where.spacing);
     const glm::dvec2 origin = where.origin + where.spacing * glm::dvec2(where.first);
-    detail::require_position("first vertex of the grid", origin);
-    detail::require_position("last vertex of the grid",
+    detail::require_position("vertex (0, 0)", origin);
+    detail::require_position("vertex (width - 1, height - 1)",
                              origin + where.spacing * glm::dvec2(where.width - 1, where.height - 1));
     heightfield result{.heights = image<float>(where.width, where.height, uninitialized, memory),
                        .origin = origin,

@@ -1,8 +1,9 @@
 // Sediments by name or grain size: one word sets relief, brightness and speckle together (rows in registry.hpp).
 //
-// A sediment is a label too: models of that label get the table's brightness and speckle by default. All values are
-// relative. Levels and roughness are for 10 to 100 kHz; a side-scan sonar's 300 to 900 kHz extrapolates
-// them. The report gives 3 dB for well known sands and silts, 10 dB for rock. Shapes of speckle are illustrative.
+// A sediment is also a label: models with that label get the table's brightness and speckle by default. All values are
+// relative. Levels and roughness are those of APL-UW TR 9407 (see registry.hpp) for 10 to 100 kHz, extrapolated to a
+// side-scan sonar's 300 to 900 kHz. The report states an uncertainty of 3 dB for well-known sands and silts, 10 dB for
+// rock. Speckle shapes are illustrative.
 #pragma once
 
 #include <insonify/seabed/any.hpp>

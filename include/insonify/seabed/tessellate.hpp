@@ -84,11 +84,11 @@ inline namespace INSONIFY_FLAGS {
 /// The surface of a heightfield as a mesh: two triangles per cell, counter-clockwise from above, cut from vertex (i, j)
 /// to (i + 1, j + 1); 2 (width - 1) (height - 1) triangles if no height is missing.
 ///
-/// Positions are relative to the heightfield's origin, x in [0, spacing (width - 1)], so that float holds them wherever
-/// the field lies: place the mesh at `field.origin`. Vertex (i, j) is number j width + i. Normals are those that
-/// `normals` gives. Vertices without data lie at z = 0 and belong to no triangle.
-/// @param first  index of vertex (0, 0) in a larger grid: positions are spacing (first + (i, j)), and meshes of parts
-///               of one grid share their vertices to the last bit
+/// Positions are spacing (first + (i, j)), relative to an origin that the caller places, so that float holds them
+/// wherever the field lies: place the mesh at `field.origin`, or with `first` at the larger grid's origin. Vertex (i,
+/// j) is number j width + i. Normals are those of `normals`. Vertices without data lie at z = 0 and belong to no
+/// triangle.
+/// @param first  index of vertex (0, 0) in a larger grid: meshes of its parts share their vertices to the last bit
 /// @throws invalid_input as `validate`, and for 2^32 vertices or more
 template <executor_argument Executor = serial_executor>
 mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}, glm::ivec2 first = {0, 0}) {

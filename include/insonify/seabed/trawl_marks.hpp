@@ -17,7 +17,7 @@ struct trawl_marks {
     float depth = 0.06f;  ///< metres, >= 0
     float width = 0.5f;   ///< metres, from 0.001: between the tops of the berms
     int directions = 2;   ///< 1 to 8: number of directions of towing
-    float length = 150;   ///< metres, from 0.001: typical length of a furrow
+    float length = 150;   ///< metres, from 0.001: the shortest furrow; half have this length, the mean is twice it
 
     friend bool operator==(const trawl_marks&, const trawl_marks&) = default;
 };

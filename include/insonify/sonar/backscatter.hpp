@@ -15,9 +15,9 @@ struct material {
     float reflectivity = 0.5f;  ///< relative, 0 or more
 };
 
-/// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear, finite,
-/// 0 or more. A law may also have `in_lanes(into, s)`, which computes several pixels at a time. A `validate(law)` that
-/// is found by its type is called before anything is drawn.
+/// `law(s)` is the backscatter at s, the sine of the grazing angle on the surface (the cosine of incidence), in [0, 1].
+/// It is linear, finite and 0 or more. An optional `in_lanes(into, s)` computes several pixels at a time; an optional
+/// `validate(law)`, found by argument-dependent lookup, is called before drawing.
 template <class L>
 concept backscatter_law = requires(const L& law, float s) {
     { law(s) } -> std::convertible_to<float>;
@@ -33,7 +33,8 @@ struct lambert {
 };
 
 /// Lambert's law for backscattered intensity, s^2 (K. V. Mackenzie. Bottom Reverberation for 530- and 1030-cps Sound in
-/// Deep Water. JASA 33, 1961, without its level): both the sound that arrives and the sound that returns spread by s.
+/// Deep Water. JASA 33, 1961, without its level): one factor s for the projected area that intercepts the sound, one
+/// for the radiation that it scatters back.
 struct lambert_backscatter {
     INSONIFY_MEMBER float operator()(float s) const { return s * s; }
     template <class Lanes>
@@ -47,7 +48,8 @@ struct lambert_backscatter {
 /// Seeliger's law where sound comes and returns along one line: D. R. Jackson, M. D. Richardson. High-Frequency
 /// Seafloor Acoustics, 2007, chapter 14), and the mirror-like echo of facets near normal incidence, which makes the
 /// bright band below the sonar (P. Beckmann, A. Spizzichino. The Scattering of Electromagnetic Waves from Rough
-/// Surfaces, 1963, chapter 5; Jackson and Richardson, chapter 13: Kirchhoff approximation).
+/// Surfaces, 1963, chapter 5; Jackson and Richardson, chapter 13: the high-frequency Kirchhoff approximation, without
+/// its factor 1 / cos^4(incidence), which is unbounded at grazing incidence).
 struct facet_backscatter {
     float facets = 4;     ///< echo at normal incidence over that of Lambert's law, >= 0
     float slope = 0.15f;  ///< rms slope of the facets, above 0: smooth mud 0.05, sand 0.1 to 0.2, gravel 0.3

@@ -87,7 +87,7 @@ class tone_sampler {
                                                                     streaks_);
         }
         if (t_.patches != 0) {
-            // Two octaves make ragged outlines, with a soft border.
+            // Two octaves of noise, the second at four times the frequency, make ragged outlines with a soft border.
             const double size = static_cast<double>(t_.patch_size);
             const double field = 0.89442719 * smooth_noise(at.x / size, at.y / size, 0, patches_) +
                                  0.44721360 * smooth_noise(4 * at.x / size, 4 * at.y / size, 1, patches_);
@@ -116,7 +116,8 @@ inline void require_within_reach(const ping& p, const std::string& name) {
 template <across_track Axis, class PingOfRow>
 void apply_tone(frame<labels>& r, const PingOfRow& ping_of_row, const side_scan_rig<Axis>& rig, const bottom_tone& tone,
                 executor_ref ex) {
-    require(r.rows.side == rig.side, "rows.side", static_cast<int>(r.rows.side), "the side of the rig");
+    require(r.rows.side == rig.side, "rows.side", static_cast<int>(r.rows.side),
+            rig.side == side::port ? "0, the port side of the rig" : "1, the starboard side of the rig");
     require_equal("rig.bins", rig.bins, r.image.width(), "the recording's width");
     require_sizes(r.labels, r.image.width(), r.image.height(), "that of the image");
     const tone_sampler level(tone);
@@ -155,7 +156,7 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 }
 
 /// Applies a tone to a recording: pixels with a seabed label change by the level at their position on the datum.
-/// Targets and the water column stay.
+/// Targets and the water column are unchanged.
 ///
 /// @param r  a result of `render` with this rig, before noise and speckle
 /// @throws invalid_input for a rig or a parameter out of its range, a picture from above, or a recording of another

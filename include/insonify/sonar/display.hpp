@@ -44,7 +44,7 @@ struct display {
 };
 
 /// Gray values by decibels: black at `range` below white, white at `white`, even steps between. NaN, 0 and below are
-/// black. Sonars record over 60 to 120 dB and show 20 to 50 of them.
+/// black. Sonars record a dynamic range of 60 to 120 dB; displays show 20 to 50 dB of it.
 struct decibel_display {
     float white = 6;   ///< intensity shown as white, above 0
     float range = 40;  ///< decibels from black to white, above 0, at most 400
@@ -75,7 +75,8 @@ enum class display_scale { power, amplitude, decibels };
 }  // namespace INSONIFY_FLAGS
 
 /// A contrast stretch by the picture's own percentiles, like "auto" in survey software: about `black_fraction` of the
-/// finite pixels is black, and about `white_fraction` white. NaN is black, infinity white.
+/// finite pixels is black, and about `white_fraction` white. The decibel scale takes the percentiles of the positive
+/// pixels alone, since shadows and the water column are 0. NaN is black, infinity white.
 struct automatic_display {
     display_scale scale = display_scale::amplitude;
     float black_fraction = 0.01f;  ///< fraction of the pixels, 0 to 0.49
@@ -94,7 +95,7 @@ struct automatic_display {
         values.reserve(picture.size());
         for (int y = 0; y < picture.height(); ++y)
             for (const float v : picture.row(y))
-                if (numeric::is_finite(v)) values.push_back(v);
+                if (numeric::is_finite(v) && (v > 0 || scale != display_scale::decibels)) values.push_back(v);
         const auto quantile = [&](double share) {
             const auto at =
                 values.begin() + numeric::floor_to_int(share * static_cast<double>(values.size() - 1) + 0.5);

@@ -20,9 +20,10 @@ inline namespace INSONIFY_ABI {
 /// The region of the points that will be tested, and the sampling of the seabed there.
 struct occlusion_bounds {
     bounding_box box;  ///< contains all points, in the world; not empty
-    double cell = 0;   ///< metres between vertices of the seabed; 0: a 512th of the box's longer side, or 0.001 of its
-                       ///< height if more
-    double reach = 8;  ///< how far towards the light the seabed is sampled at most, along either axis, in longer sides
+    double cell = 0;   ///< metres between vertices of the seabed; 0: 1/512 of the longest of the box's sides along x
+                       ///< and y and a thousandth of its height
+    double reach = 8;  ///< largest distance towards the light, along either axis, at which the seabed is sampled, in
+                       ///< multiples of the same length
 };
 
 inline namespace INSONIFY_FLAGS {

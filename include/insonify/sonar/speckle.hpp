@@ -46,7 +46,8 @@ struct seabed_speckle {
     /// field: beside a steady echo it is up to 1.4 times as long; a texture has its own length.
     float along_track = 1;
     float across_track = 1;    ///< the same across the track, in bins
-    float texture_length = 3;  ///< pings and bins between nodes of the texture's lattice, 1 to 1024; 1 / e at 0.4 of it
+    float texture_length = 3;  ///< pings and bins between nodes of the texture's lattice, 1 to 1024. Adjacent pixels
+                               ///< correlate by at most 4/9; 1 / e at 0.4 of the length
     std::uint64_t seed = 1;
 };
 

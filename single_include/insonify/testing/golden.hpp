@@ -108,7 +108,8 @@ struct golden_pictures {
             return {.pixels = found.size()};
         }
         const std::string stem = (failures.empty() ? folder : failures) + "/" + name;
-        if (!detail::file_handle(path, "rb").get()) {
+        errno = 0;
+        if (!detail::file_handle(path, "rb").get() && errno == ENOENT) {
             picture_comparison missing;
             missing.message = detail::with_files<Pixel>("there is no golden picture " + path +
                                                             ": look at the picture, then run again with "

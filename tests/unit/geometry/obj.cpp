@@ -114,6 +114,12 @@ TEST_CASE("A face is read the same in every spelling of its indices and lines") 
     CHECK(m.normals == std::vector<glm::vec3>(3, {0, 0, 1}));
 }
 
+TEST_CASE("Convex polygons with straight corners have no triangle without area, and normals of their own face") {
+    const in::mesh wall = in::read_obj("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 2 0 2\nv 0 0 2\nf 1 2 3 4 5\n");
+    REQUIRE(wall.triangles.size() == 3);
+    CHECK(wall.normals == std::vector<glm::vec3>(5, {0, -1, 0}));
+}
+
 TEST_CASE("Numbers are read without the locale, at any length; coordinates past the third are ignored") {
     const in::mesh m = in::read_obj(
         "\xEF\xBB\xBFv +1.5 -2e-3 .25 0.5 0.5 0.5\nv 0.123456789012345678901234567890123 1E2 1. nonsense\n"

@@ -332,6 +332,8 @@ TEST_CASE("A lobster pot is solid, with its stated size to within a bar's thickn
                             CHECK(is.z == Approx(0.41).margin(0.016));
                         }
                     }
+    check_solid(
+        to_mesh(in::lobster_pot{.length = 0.4f, .width = 0.56f, .height = 0.41f, .bar = 0.05f}));  // the thickest
     CHECK_THROWS_WITH(to_mesh(in::lobster_pot{.length = 0}), ContainsSubstring("lobster_pot.length is 0"));
     CHECK_THROWS_WITH(to_mesh(in::lobster_pot{.width = -2}), ContainsSubstring("lobster_pot.width is -2"));
     CHECK_THROWS_WITH(to_mesh(in::lobster_pot{.height = not_a_number}), ContainsSubstring("lobster_pot.height"));

@@ -80,6 +80,7 @@ TEST_CASE("Headers with sizes that the file does not have are refused before mem
     CHECK(refusal<std::uint8_t>("") == "hostile.pgm: not a netpbm file");
     CHECK(refusal<std::uint8_t>("\x89PNG\r\n") == "hostile.pgm: not a netpbm file");
     CHECK_THAT(refusal<std::uint8_t>("P4 8 1\n1"), ContainsSubstring("format P4"));
+    CHECK_THAT(refusal<std::uint8_t>("P53 1 255\n000"), ContainsSubstring("not a netpbm file"));
     CHECK_THAT(refusal<std::uint8_t>("P5"), ContainsSubstring("not a netpbm file"));
     CHECK_THAT(refusal<std::uint8_t>("P5 # only a comment"), ContainsSubstring("ends before the width"));
     CHECK_THAT(refusal<std::uint8_t>("P5 2"), ContainsSubstring("ends before the height"));

@@ -91,6 +91,26 @@ TEST_CASE("Smoothed ground fades on coarse grids as the ground around it does") 
     }
 }
 
+TEST_CASE("Smoothing removes relief that is shorter than its nodes, instead of aliasing it") {
+    for (const float wavelength : {0.0625f, 0.07f, 0.12f}) {
+        const sb::ripples ripples{.wavelength = wavelength, .surface = smooth};
+        const sb::sculpted smoothed{.ground = ripples, .edits = {sb::smooth{{0, 0}, 1000, 0.25f}}};
+        CAPTURE(wavelength);
+        CHECK(rms(sampled(smoothed, 0.01)) < 0.02 * rms(sampled(ripples, 0.01)));
+    }
+}
+
+TEST_CASE("Patches keep their coverage on grids coarser than their borders") {
+    const sb::blend half{.first = sb::flat{.kind = sb::type::rock}, .coverage = 0.3f, .patch = 12};
+    for (const double spacing : {2.0, 10.0, 40.0}) {
+        const auto field = sampled(half, spacing);
+        double first = 0;
+        for (const sb::type t : field.types.pixels()) first += t == sb::type::rock;
+        CAPTURE(spacing);
+        CHECK(first / static_cast<double>(field.types.size()) == Approx(0.3).margin(0.03));
+    }
+}
+
 TEST_CASE("Roughness keeps the octaves that a grid carries, and their heights") {
     const sb::flat bottom{.surface = {.rms = 0.01f, .longest = 8, .shortest = 0.03125f, .exponent = 2.5f}};
     for (const double spacing : {0.0625, 0.25, 1.0}) {

@@ -196,6 +196,7 @@ TEST_CASE("Relief is as continuous 10^7 m from the origin as at it") {
 TEST_CASE("A seabed sinks about as deep as 99 % of its surface strays from its mean level") {
     std::vector<sb::any> all = kinds();
     all.back() = sb::ripples{.surface = {.rms = 0.05f}, .seed = 5};  // mixed ones sink as deep as their deepest layer
+    all.push_back(sb::mud{.density = 0, .trawls = {.density = 0.1f, .depth = 0.3f}});
     for (const sb::any& kind : all) {
         const auto field = sb::sample(kind, {.origin = {-20, -20}, .spacing = 0.08, .width = 500, .height = 500});
         const double mean = moments_of(field.heights).mean;

@@ -146,7 +146,7 @@ TEST_CASE("Each field of heightfields and grids is refused by name") {
     CHECK_THAT(refusal([] {
                    (void)sb::sample(sb::mud{}, {.origin = {9e8, 0}, .spacing = 999999, .width = 200});
                }),
-               ContainsSubstring("last vertex of the grid.x is"));
+               ContainsSubstring("vertex (width - 1, height - 1).x is"));
 }
 
 TEST_CASE("A length refused for being too large names the limit") {

@@ -108,6 +108,18 @@ TEST_CASE("automatic_display() makes the given fractions of the pixels black and
     CHECK(linear(0, 50) == Approx(0.5).margin(1e-3));
 }
 
+TEST_CASE("automatic_display() in decibels stretches the echoes, however many pixels are shadow or water") {
+    in::image<float> echoes(10, 100);
+    for (int y = 0; y < 50; ++y)
+        for (int x = 0; x < 10; ++x) echoes(x, y) = static_cast<float>(std::pow(10.0, -5 + 0.004 * (10 * y + x)));
+    const auto shown =
+        echoes | in::automatic_display{.scale = in::display_scale::decibels, .black_fraction = 0, .white_fraction = 0};
+    CHECK(shown(0, 0) == 0);
+    CHECK(shown(0, 25) == Approx(0.5).margin(2e-3));
+    CHECK(shown(9, 49) == 1);
+    CHECK(shown(0, 99) == 0);
+}
+
 TEST_CASE("automatic_display() takes constant, empty and non-finite pictures") {
     CHECK((in::image<float>(3, 3, 2.0f) | in::automatic_display{})(1, 1) == 0);
     CHECK((in::image<float>(1, 1, not_a_number) | in::automatic_display{})(0, 0) == 0);

@@ -34,7 +34,7 @@ TEST_CASE("render() refuses each field of an overhead rig by name") {
         {FIELD(position.x, not_finite), FIELD(position.y, not_finite), FIELD(altitude, not_above_0),
          FIELD(yaw, not_an_angle), FIELD(field_of_view, outside(0, 3.1399)), FIELD(size.x, outside_whole(1, 32768)),
          FIELD(size.y, outside_whole(1, 32768)), FIELD(grazing, outside(0, 1.571)), FIELD(light_azimuth, not_an_angle),
-         FIELD(light_distance, {nan_value, -infinity, -1, 0}), FIELD(intensity, below_0), FIELD(sky, below_0),
+         FIELD(light_distance, {nan_value, -infinity, -1, 0, 1.1e15}), FIELD(intensity, below_0), FIELD(sky, below_0),
          FIELD(ambient, below_0)});
 }
 

@@ -51,7 +51,7 @@ struct echo_factor {
 };
 
 /// How intensities are drawn; `by_looks` is exponential for one look, else gamma. The choice never depends on whether a
-/// parameter is a map, so that a map of equal values gives the same noise as that value.
+/// parameter is a map: without correlation, a map of equal values gives the same noise as that value.
 enum class echo_draw { gamma, by_looks, rice };
 
 /// Statistics of an intensity: the three numbers of a speckle_law, by pixel.

@@ -86,7 +86,8 @@ inline mesh to_mesh(const lobster_pot& p) {
     const int slats = 5;
     for (int i = 0; i < slats; ++i) {
         const double x = -half + 2 * radius + (2 * half - 4 * radius) * i / (slats - 1.0);
-        detail::append_box(body, {x - 1.5 * radius, -side, 0.2 * radius}, {x + 1.5 * radius, side, 1.7 * radius});
+        // Narrower than the pitch of 3 radii at the thickest bar, so that adjacent slats share no edge.
+        detail::append_box(body, {x - 1.4 * radius, -side, 0.2 * radius}, {x + 1.4 * radius, side, 1.7 * radius});
     }
 
     std::vector<glm::dvec3> path;

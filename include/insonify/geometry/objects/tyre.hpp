@@ -16,7 +16,7 @@ inline namespace INSONIFY_ABI {
 /// A tyre without its wheel, its axis along z, lying on z = 0: a hollow ring that is open towards its axis.
 ///
 /// The defaults are a car's 195/65 R15 (ISO 4000-1): 195 mm wide, on a rim of 15 inches, and as high as 65 % of its
-/// width, so 381 + 2 * 0.65 * 195 = 634 mm across. A lorry's 315/80 R22.5 (ISO 4209-1) is 1.076 m, 0.315 m, 0.572 m.
+/// width, so 381 + 2 * 0.65 * 195 = 634.5 mm across. A lorry's 315/80 R22.5 (ISO 4209-1) is 1.076 m, 0.315 m, 0.572 m.
 struct tyre {
     float diameter = 0.634f;      ///< outside, metres
     float width = 0.195f;         ///< metres, 0.001 to 10 diameters

@@ -24,6 +24,7 @@ class netpbm_reader {
         kind_ = rest_[1];
         if (std::string_view("2356Ff").find(kind_) == std::string_view::npos)
             fail("netpbm format P" + std::string(1, kind_) + " is not one of P2 P3 P5 P6 PF Pf");
+        if (!is_space(rest_[2]) && rest_[2] != '#') fail("not a netpbm file");
         rest_.remove_prefix(2);
         width_ = integer("width", 1, 1 << 30);
         height_ = integer("height", 1, 1 << 30);

@@ -1,8 +1,8 @@
 // World-fixed lattices: coordinates of positions on a lattice, and random bits for each cell.
 //
 // Random draws are keyed by lattice cell, so that a position has the same relief in any grid, tile or order of
-// evaluation. Cells are computed in double and only fractions of a cell in float: precision at 10^7 m from the origin
-// is that at the origin.
+// evaluation. Cells are computed in double and only fractions of a cell in float: for cells of 3 cm or more, precision
+// at 10^7 m from the origin is that at the origin.
 //
 // Based on: Guy L. Steele, Doug Lea, Christine H. Flood. Fast Splittable Pseudorandom Number Generators. OOPSLA, 2014
 // (the finaliser "variant 13"). Chris Wellons. Prospecting for Hash Functions. 2018 (the 32-bit finaliser "lowbias32").

@@ -4,9 +4,9 @@
 // psi(x) = sum_n exp i(k_n . x + phi_n), drives a profile of constant amplitude: height = (eta / 2) cos arg psi. Crests
 // fork at the zeros of psi, around which the phase winds once.
 //
-// The envelope psi exp(-i k_0 . x) varies slowly. Along a row it is summed on a lattice several times coarser than the
-// ripples and interpolated; across rows it is exact. The lattice is fixed to the world: a height depends on seed and
-// position alone.
+// The envelope psi exp(-i k_0 . x) varies slowly. Along a row it is summed on a lattice of at most one wavelength (a
+// third of it by default), coarser than the samples of a picture, and interpolated; across rows it is exact. The
+// lattice is fixed to the world: a height depends on seed and position alone.
 //
 // Based on: Dajun Tang, Frank S. Henyey, Brian T. Hefner, Peter A. Traykovski. Simulating Realistic-Looking Sediment
 // Ripple Fields. IEEE Journal of Oceanic Engineering 34, 2009 (why ripples are not Gaussian).

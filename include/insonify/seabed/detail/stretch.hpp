@@ -19,14 +19,14 @@ namespace seabed::detail::inline INSONIFY_FLAGS {
 
 using insonify::detail::dispatch;
 
-/// The part of a row that is processed at a time: its positions, padded with the last to whole vectors.
+/// Positions of up to `chunk` samples of a row, padded to whole vectors with the last one.
 struct stretch {
-    static constexpr std::size_t padded = chunk;  // which is a multiple of every lane count
+    static constexpr std::size_t padded = chunk;  // a multiple of every lane count
 
     double y, spacing;
     double grid_spacing;                       ///< see scanline
     std::size_t count;                         ///< at least 1
-    alignas(32) std::array<double, padded> x;  ///< rising
+    alignas(32) std::array<double, padded> x;  ///< ascending
 
     stretch(const scanline& line, std::size_t samples)
         : y(line.y), spacing(line.spacing), grid_spacing(line.grid_spacing), count(samples) {

@@ -60,9 +60,14 @@ class trawl_furrows {
     INSONIFY_INLINE void add_lanes(const stretch& part, float* values) const {
         const float band_gain = band_limit_gain(2 * width_, part.grid_spacing);  // a furrow between its berms
         if (band_gain == 0) return;
-        for (std::size_t n = 0; n < families_.size(); ++n)
-            for (std::size_t i = 0; i < part.whole(); i += N)
-                add_family<N>(families_[n], n, band_gain, part, i, values + i);
+        for (std::size_t n = 0; n < families_.size(); ++n) {
+            const family& f = families_[n];
+            if (N * part.spacing * f.per_strip <
+                0x1p30)  // strips are counted from the group's first sample, in 32 bits
+                for (std::size_t i = 0; i < part.whole(); i += N) add_family<N>(f, n, band_gain, part, i, values + i);
+            else
+                for (std::size_t i = 0; i < part.count; ++i) add_family<1>(f, n, band_gain, part, i, values + i);
+        }
     }
 
     template <int N>
@@ -72,7 +77,7 @@ class trawl_furrows {
         using words = lanes<std::uint32_t, N>;
         using ints = lanes<std::int32_t, N>;
         const double across = part.y * f.cosine * f.per_strip;
-        const std::int64_t first = numeric::floor_to_int(across - part.x[0] * f.sine * f.per_strip);
+        const std::int64_t first = numeric::floor_to_int(across - part.x[i] * f.sine * f.per_strip);
         lanes<float, N> distance, shift, bends, sine, cosine;
         ints cell;
         locate<N>(distance, cell, &part.x[i], -f.sine * f.per_strip, across, static_cast<double>(first));

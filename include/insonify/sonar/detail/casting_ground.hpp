@@ -1,4 +1,4 @@
-// The ground that can throw a shadow on points that lie above a rectangle.
+// The ground that can cast a shadow on points that lie above a rectangle.
 #pragma once
 
 #include <insonify/geometry/bounds.hpp>
@@ -13,12 +13,13 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The rectangle, extended towards the light to all ground that can throw a shadow on its points.
+/// The rectangle, extended towards the light to all ground that can cast a shadow on its points.
 ///
 /// A ray from the lowest point to a parallel light is above the highest ground after (highest - lowest) cot(elevation)
-/// metres; to a point light, after the fraction (highest - lowest) / (light's height - lowest) of the way. For an
-/// extended light, the corners of a square around it are tried: the distance is a quotient of linear functions of the
-/// position on the light, so its maximum is in a corner.
+/// metres; to a point light, after the fraction (highest - lowest) / (light's height - lowest) of the way. An extended
+/// light is tried at the corners of a square around it: if all of it is above the ground that may cast, the distance is
+/// a quotient of linear functions of the position on the light, with its maximum in a corner; else the ground is
+/// extended to below the light, or by `longest`.
 /// @param range   heights of the lowest point and of the highest ground
 /// @param light   in the frame of the rectangle; the disc of a point light faces the origin
 /// @param radius  of the light over its distance
@@ -35,6 +36,8 @@ inline ground_rect casting_ground(const ground_rect& points, const seabed::heigh
         return shadow::toward_disc(frame.to_light(), frame.travel(), disc_offset);
     };
     const auto clamped = [&](double way) { return (std::max)(-longest, (std::min)(longest, way)); };
+    const double lowest_light = (std::min)(light_at({0, -radius}).z, light_at({0, radius}).z);
+    const bool is_above = lowest_light > (source != nullptr ? range.highest : 0);
     for (const double across : {-radius, radius})
         for (const double up : {-radius, radius}) {
             const glm::dvec3 to = light_at({across, up});
@@ -42,10 +45,10 @@ inline ground_rect casting_ground(const ground_rect& points, const seabed::heigh
                 for (const double from : {points.lower[axis], points.upper[axis]}) {
                     double way;
                     if (source != nullptr) {
-                        const double share = to.z > range.highest ? relief / (to.z - range.lowest) : 1;
-                        way = share * (to[axis] - from);
+                        const double fraction = is_above ? relief / (to.z - range.lowest) : 1;
+                        way = fraction * (to[axis] - from);
                     } else {
-                        way = to.z > 0 ? relief / to.z * to[axis] : longest * (to[axis] < 0 ? -1 : 1);
+                        way = is_above ? relief / to.z * to[axis] : longest * (to[axis] < 0 ? -1 : 1);
                     }
                     const double end = from + clamped(way);
                     all.lower[axis] = (std::min)(all.lower[axis], end);

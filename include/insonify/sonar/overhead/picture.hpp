@@ -25,8 +25,9 @@ struct render_options {
     Shadow shadow{};
     Law law{};
     double cell = 0;  ///< metres between the vertices at which the seabed is sampled; 0: two pixels on level ground
-    /// How far towards the light the seabed may cast from, at most, in longer sides of the picture. Less is sampled if
-    /// its heights throw no shadow that far; with the light below 1 degree, rock casts shadows from farther.
+    /// Largest distance towards the light at which the seabed can cast shadows into the picture, in multiples of the
+    /// picture's longer side. Less is sampled if the seabed is too low to cast that far. The default covers
+    /// `seabed::rock` under the default rig down to a grazing angle of 0.3 degrees.
     float reach = 8;
     /// See draw_options. Finer with shadows, as the triangle that a pixel shows decides whether it faces the light.
     int subpixel_bits = std::is_same_v<Shadow, shadow::none> ? 8 : 12;

@@ -121,7 +121,7 @@ class overhead_renderer {
         const int longer = (std::max)(rig.size.x, rig.size.y);
         const double spacing = options_.cell > 0 ? options_.cell : longer_side(view_) / ((longer + 1) / 2);
         require(spacing >= min_cell(view_) && spacing < 1e6, "cell", spacing,
-                "at least a 32768th of the picture, and below 10^6 metres");
+                "at least 1/32768 of the picture's longer side, and below 10^6 metres");
 
         seabed::height_range range = scene_.seabed.prepare().range();
         seabed::detail::require_finite(range);

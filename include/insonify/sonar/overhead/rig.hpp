@@ -51,7 +51,8 @@ inline void validate(const overhead& rig) {
     require(rig.grazing >= 1e-9f && static_cast<double>(rig.grazing) <= numeric::pi / 2 + 1e-7, "overhead.grazing",
             rig.grazing, "10^-9 to pi / 2 radians");
     detail::require_angle("overhead.light_azimuth", rig.light_azimuth);
-    require(rig.light_distance > 0, "overhead.light_distance", rig.light_distance, "above 0 metres");
+    require(rig.light_distance > 0 && (rig.light_distance <= 1e15f || !numeric::is_finite(rig.light_distance)),
+            "overhead.light_distance", rig.light_distance, "above 0 and at most 10^15 metres, or infinite");
     require_not_negative("overhead.intensity", rig.intensity);
     require_not_negative("overhead.sky", rig.sky);
     require_not_negative("overhead.ambient", rig.ambient);

@@ -52,7 +52,8 @@ inline double slant_shadow_length(double ground, double altitude, double height)
     return numeric::is_finite(tip) ? tip - slant_range(ground, altitude, height) : tip;
 }
 
-/// Apparent position of a raised point after slant-range correction: layover moves it towards the sonar, at most to 0.
+/// Apparent position of a raised point after slant-range correction: layover moves points below twice the altitude
+/// towards the sonar, at most to 0, and points higher than that, or below the seabed, away from it.
 inline double apparent_ground(double ground, double altitude, double height) {
     return ground_range(slant_range(ground, altitude, height), altitude);
 }

@@ -97,7 +97,7 @@ struct pulse {
 
 /// The mean intensity of the receiver's noise. Speckle makes it fluctuate.
 struct noise_floor {
-    float intensity = 1e-3f;
+    float intensity = 1e-13f;  ///< before gain, in the unit of the bins: m^2 at 1 m, after source level and losses
     INSONIFY_MEMBER double noise() const { return static_cast<double>(intensity); }
 };
 

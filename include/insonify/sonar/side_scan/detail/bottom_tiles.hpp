@@ -54,7 +54,7 @@ class bottom_tiles {
         mark(pings, steps);
         const dynamic_array<tile_run> runs = number_marked();
         const std::size_t tiles = runs.empty() ? 0 : std::size_t{runs.back().slot} + runs.back().count;
-        require(tiles < max_tiles, "seabed tiles", tiles, "below 2^18, which is 17 GB: take larger cells");
+        require(tiles < max_tiles, "seabed tiles", tiles, "below 2^18 (17 GB); use larger cells");
         vertices_.reset(new bottom_vertex[tiles * tile_size]);
         ex.bulk(runs.size(), [&](std::size_t i) { sample(runs[i]); });
         sampled_ += tiles * tile_size;

@@ -1,5 +1,6 @@
 // First hits of a ping's rays with the targets, and the fraction of each ray's width that they cover: exact for up to
-// max_parts segments per ray, sampled for more.
+// max_parts segments per ray that do not cross each other, sampled for more. Segments that cross within a part, as
+// those of interpenetrating targets, count as whole: the one nearer at the part's middle.
 //
 // The cross-section of the targets with a ping's plane is a set of line segments. Their ends divide each ray's width
 // into parts; in each part the nearest segment is hit, weighted by the part's fraction of the width. A bar
