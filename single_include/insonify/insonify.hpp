@@ -8023,13 +8023,14 @@ constexpr float empty_depth(depth_compare compare) {
 /// How depth between the vertices is computed.
 enum class depth_precision {
     exact,  ///< correctly rounded: the float nearest to the plane through the three snapped vertices
-    /// In float, clamped to the vertices' depths; a quarter to a third of the time. Off by at most 2^-22 of the largest
-    /// depth, plus 2^-19 of the triangle's range of depths where it fills half of its bounding box, and 2^-7 of it on
-    /// the thinnest.
+    /// In float, clamped to the vertices' depths. Depth alone takes an eighth of the time at 4 pixels per vertex, a
+    /// quarter to a half at one, four fifths at half a pixel. Off by at most 2^-22 of the largest depth, plus 2^-19 of
+    /// the triangle's range of depths where it fills half of its bounding box, and 2^-7 of it on the thinnest.
     quick,
 };
 
-/// Options of a draw. `tile` and `level` never change the result, but for the sign of zeros in the depth buffer.
+/// Options of a draw. `tile` and `level` never change the result, except that a depth of -0 that was in the target may
+/// become +0.
 template <depth_precision Depth = depth_precision::exact>
 struct draw_options {
     cull_mode cull = cull_mode::none;
@@ -10611,14 +10612,14 @@ class light_frame {
 /// Direction to a point of a disc of light, in units of the distance to its centre.
 /// @param to_light     unit vector to the centre
 /// @param travel       unit vector on the ground along which shadows grow
-/// @param disc_offset  from the centre, across and up, in the same unit
+/// @param disc_offset  from the centre, across and down, in the same unit
 inline glm::dvec3 toward_disc(const glm::dvec3& to_light, const glm::dvec2& travel, const glm::dvec2& disc_offset) {
-    const glm::dvec3 across(-travel.y, travel.x, 0), up = numeric::cross(to_light, across);
-    return to_light + disc_offset.x * across + disc_offset.y * up;
+    const glm::dvec3 across(-travel.y, travel.x, 0), down = numeric::cross(to_light, across);
+    return to_light + disc_offset.x * across + disc_offset.y * down;
 }
 
 /// A point of a disc of light that faces the origin.
-/// @param disc_offset  from the centre, across and up, over the centre's distance from the origin
+/// @param disc_offset  from the centre, across and down, over the centre's distance from the origin
 inline glm::dvec3 point_of_disc(const glm::dvec3& centre, const glm::dvec2& disc_offset) {
     const double distance = numeric::length(centre);
     const double level = numeric::length(glm::dvec2(centre));
@@ -10661,7 +10662,8 @@ inline constexpr std::uint32_t invalid_id = 0xFFFFFFFFu;
 
 /// Triangles of a caster that a test may skip without changing the result: every ray that one of them blocks is blocked
 /// by another, too. Points of the caster itself that face away from the light (points::face_light) are tested against
-/// all of its triangles.
+/// all of its triangles. A point exactly on an edge between a triangle that faces the light and one that does not may
+/// get either result.
 enum class skip {
     nothing,      ///< both sides of all triangles block
     facing,       ///< front faces towards the light: the mesh is closed, and no point lies inside
@@ -12601,7 +12603,8 @@ struct clip_corner {
     glm::dvec3 weights;
 };
 
-/// The part of a triangle inside all planes, convex: three corners and at most one more for each plane.
+/// The part of a triangle inside all planes: three corners and one more for each plane that cuts it. Where rounding
+/// puts several corners across a plane, a cut adds more; those that exceed the array are dropped.
 struct clip_polygon {
     static constexpr int planes = 7;
     std::array<clip_corner, 3 + planes> corners;
@@ -12727,7 +12730,7 @@ class projection {
         clip_polygon kept;
         kept.was_cut = whole.was_cut;
         const auto keep = [&](const clip_corner& corner) {
-            kept.corners[static_cast<std::size_t>(kept.count++)] = corner;
+            if (kept.count < 3 + clip_polygon::planes) kept.corners[static_cast<std::size_t>(kept.count++)] = corner;
         };
         for (int i = 0; i < whole.count; ++i) {
             const clip_corner& here = whole.corners[static_cast<std::size_t>(i)];
@@ -13231,7 +13234,7 @@ concept vertex_shader = position_shader<S> || varying_shader<S>;
 
 /// A vertex shader that can also shade several vertices at a time: `shader(clip, varyings, position, normal)` takes
 /// arrays of SIMD values, one array element per float, and sets the first two to the same bits that `shader(vertex)`
-/// returns. Normals are zero if the mesh has none, or if only depth is drawn.
+/// returns. Normals are zero if the mesh has none.
 template <class S, class Floats>
 concept vertex_lane_shader = vertex_shader<S> &&
     requires(const S& shader, Floats (&four)[4], const Floats (&three)[3]) {
@@ -13479,7 +13482,7 @@ struct vertex_kernel {
         constexpr int blocks = varyings_record<varyings_of<Shader>>::blocks;
         floats position[3], normal[3] = {}, varyings[static_cast<unsigned>(4 * blocks + 1)] = {};
         transpose_threes(position, &m.positions[start]);
-        if (recorded && !m.normals.empty()) transpose_threes(normal, &m.normals[start]);
+        if (!m.normals.empty()) transpose_threes(normal, &m.normals[start]);
         shader(clip, varyings, position, normal);
         if constexpr (recorded) {
             unroll<Record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
@@ -14431,14 +14434,14 @@ class fragment_lanes {
         detail::load(into, depth_);
         into = into * depth_sign_ + 0.0f;
     }
-    /// Stores one value per visible pixel.
+    /// Stores one value per visible pixel, converted to the image's type.
     template <class Image, class Values>
     INSONIFY_INLINE void store(Image&& into, const Values& values) const {
-        if (all_visible)
-            detail::store(&into(x, y), values);
-        else
-            for (int k = 0; k < N; ++k)
-                if (detail::lane(visible, k) != 0) into(x + k, y) = detail::lane(values, k);
+        using pixel = std::remove_cvref_t<decltype(into(x, y))>;
+        if constexpr (std::is_same_v<pixel, decltype(detail::lane(values, 0))>)
+            if (all_visible) return detail::store(&into(x, y), values);
+        for (int k = 0; k < N; ++k)
+            if (detail::lane(visible, k) != 0) into(x + k, y) = static_cast<pixel>(detail::lane(values, k));
     }
 
   private:
@@ -16914,10 +16917,11 @@ INSONIFY_ARITHMETIC_END
 // Casters and points are projected along the light's rays onto a plane (detail/light_planes.hpp), which is cut into
 // tiles (detail/tiled_plane.hpp). `build` bins triangles into the tiles that they touch; `test` sorts points into the
 // cells of a tile, and each triangle is tested against the points under it (detail/occlusion_kernel.hpp). The cost is
-// linear in triangles and points, and there is no resolution and no bias.
+// the number of such pairs, linear in triangles and points for meshes of small triangles. There is no resolution and no
+// bias.
 //
-// Every result is decided by one test in doubles (detail/light_rays.hpp), for any mesh: open, closed, self-intersecting
-// or inside out. Triangles are skipped only where that provably changes nothing (shadow::skip).
+// Results are those of one test in doubles (detail/light_rays.hpp), for any mesh: open, closed, self-intersecting or
+// inside out. Only points exactly on an edge where a caster turns away from the light may differ (shadow::skip).
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -17031,10 +17035,14 @@ class exact_occlusion {
         return reach;
     }
     /// Whether a caster is a grid lit from above its own plane: then horizon bounds replace its list of triangles.
-    /// Checked for each sample of a wide light, since some may lie below that plane.
+    /// Checked for each sample of a wide light, since some may lie below that plane. Bounds of a long strip lit
+    /// obliquely would take too much memory, columns x (rows + slope columns).
     static bool has_horizon(const caster& c, const light_frame& frame) {
-        return c.grid != nullptr && c.may_skip == skip::facing_self &&
-               transform_direction(inverse(c.placement), frame.to_light()).z > 0;
+        if (c.grid == nullptr || c.may_skip != skip::facing_self) return false;
+        const glm::dvec3 travel = transform_direction(inverse(c.placement), -frame.to_light());
+        if (!(travel.z < 0)) return false;
+        const detail::lit_grid lit(*c.grid, travel);
+        return lit.slope * lit.columns <= 4.0 * lit.rows;
     }
     static constexpr std::size_t screened_together = 256;
     /// Screens points of one mesh, of parallel light.
@@ -24217,7 +24225,8 @@ inline float lit(const height_map& map, const receiver_plane& r, int radius) {
     if (!(at.x >= -reach && at.y >= -reach && at.x < static_cast<float>(map.columns()) + reach &&
           at.y < static_cast<float>(map.rows()) + reach))
         return 1;
-    const int column = static_cast<int>(at.x + 64) - 64, row = static_cast<int>(at.y + 64) - 64;  // rounds down
+    const auto column = static_cast<int>(numeric::floor_to_int(static_cast<double>(at.x))),
+               row = static_cast<int>(numeric::floor_to_int(static_cast<double>(at.y)));
     int open = 0;
     for (int j = row - radius; j <= row + radius; ++j)
         for (int i = column - radius; i <= column + radius; ++i) {
@@ -24241,9 +24250,9 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/shadow/map.hpp -------------------------------------------------------------------
 // Shadow maps: one height map for each caster, looked up at the nearest texel (`map`) or averaged over several (`pcf`).
 //
-// A target's map covers the target alone, so its texels stay fine in large pictures. A shadow edge is off by at most
-// half a texel. A point on a mesh gets a depth bias along the slope of its facet, see map_lookup.hpp. Point lights are
-// rejected.
+// A target's map covers the target alone, so its texels stay fine in large pictures. On level ground a shadow edge is
+// off by at most half a texel along u and along v, 0.71 texels across a diagonal edge. A point on a mesh gets a depth
+// bias along the slope of its facet, see map_lookup.hpp. Point lights are rejected.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -24364,7 +24373,7 @@ class map_occlusion {
 
 /// A map of the casters' heights along the light, looked up at the nearest texel: hard edges.
 struct map {
-    float texels_per_pixel = 1.5f;  ///< of the points' spacing; a shadow edge is off by half a texel at most
+    float texels_per_pixel = 1.5f;  ///< of the points' spacing; a shadow edge is off by 0.71 texels at most
     int largest = 8192;             ///< texels a side; texels are enlarged where a map would exceed it
 
     /// See casting_policy.
@@ -24446,7 +24455,7 @@ class penumbra_occlusion {
 
   private:
     /// A point of the light, or none below the horizon.
-    /// @param disc_offset  from the disc's centre, across and up, divided by the light's distance
+    /// @param disc_offset  from the disc's centre, across and down, divided by the light's distance
     static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& disc_offset) {
         if (disc_offset == glm::dvec2(0)) return light;
         if (const auto* source = std::get_if<point_light>(&light))

@@ -62,14 +62,14 @@ class fragment_lanes {
         detail::load(into, depth_);
         into = into * depth_sign_ + 0.0f;
     }
-    /// Stores one value per visible pixel.
+    /// Stores one value per visible pixel, converted to the image's type.
     template <class Image, class Values>
     INSONIFY_INLINE void store(Image&& into, const Values& values) const {
-        if (all_visible)
-            detail::store(&into(x, y), values);
-        else
-            for (int k = 0; k < N; ++k)
-                if (detail::lane(visible, k) != 0) into(x + k, y) = detail::lane(values, k);
+        using pixel = std::remove_cvref_t<decltype(into(x, y))>;
+        if constexpr (std::is_same_v<pixel, decltype(detail::lane(values, 0))>)
+            if (all_visible) return detail::store(&into(x, y), values);
+        for (int k = 0; k < N; ++k)
+            if (detail::lane(visible, k) != 0) into(x + k, y) = static_cast<pixel>(detail::lane(values, k));
     }
 
   private:

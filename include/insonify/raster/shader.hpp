@@ -55,7 +55,7 @@ concept vertex_shader = position_shader<S> || varying_shader<S>;
 
 /// A vertex shader that can also shade several vertices at a time: `shader(clip, varyings, position, normal)` takes
 /// arrays of SIMD values, one array element per float, and sets the first two to the same bits that `shader(vertex)`
-/// returns. Normals are zero if the mesh has none, or if only depth is drawn.
+/// returns. Normals are zero if the mesh has none.
 template <class S, class Floats>
 concept vertex_lane_shader = vertex_shader<S> &&
     requires(const S& shader, Floats (&four)[4], const Floats (&three)[3]) {

@@ -3,10 +3,11 @@
 // Casters and points are projected along the light's rays onto a plane (detail/light_planes.hpp), which is cut into
 // tiles (detail/tiled_plane.hpp). `build` bins triangles into the tiles that they touch; `test` sorts points into the
 // cells of a tile, and each triangle is tested against the points under it (detail/occlusion_kernel.hpp). The cost is
-// linear in triangles and points, and there is no resolution and no bias.
+// the number of such pairs, linear in triangles and points for meshes of small triangles. There is no resolution and no
+// bias.
 //
-// Every result is decided by one test in doubles (detail/light_rays.hpp), for any mesh: open, closed, self-intersecting
-// or inside out. Triangles are skipped only where that provably changes nothing (shadow::skip).
+// Results are those of one test in doubles (detail/light_rays.hpp), for any mesh: open, closed, self-intersecting or
+// inside out. Only points exactly on an edge where a caster turns away from the light may differ (shadow::skip).
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
@@ -130,10 +131,14 @@ class exact_occlusion {
         return reach;
     }
     /// Whether a caster is a grid lit from above its own plane: then horizon bounds replace its list of triangles.
-    /// Checked for each sample of a wide light, since some may lie below that plane.
+    /// Checked for each sample of a wide light, since some may lie below that plane. Bounds of a long strip lit
+    /// obliquely would take too much memory, columns x (rows + slope columns).
     static bool has_horizon(const caster& c, const light_frame& frame) {
-        return c.grid != nullptr && c.may_skip == skip::facing_self &&
-               transform_direction(inverse(c.placement), frame.to_light()).z > 0;
+        if (c.grid == nullptr || c.may_skip != skip::facing_self) return false;
+        const glm::dvec3 travel = transform_direction(inverse(c.placement), -frame.to_light());
+        if (!(travel.z < 0)) return false;
+        const detail::lit_grid lit(*c.grid, travel);
+        return lit.slope * lit.columns <= 4.0 * lit.rows;
     }
     static constexpr std::size_t screened_together = 256;
     /// Screens points of one mesh, of parallel light.

@@ -78,14 +78,14 @@ class light_frame {
 /// Direction to a point of a disc of light, in units of the distance to its centre.
 /// @param to_light     unit vector to the centre
 /// @param travel       unit vector on the ground along which shadows grow
-/// @param disc_offset  from the centre, across and up, in the same unit
+/// @param disc_offset  from the centre, across and down, in the same unit
 inline glm::dvec3 toward_disc(const glm::dvec3& to_light, const glm::dvec2& travel, const glm::dvec2& disc_offset) {
-    const glm::dvec3 across(-travel.y, travel.x, 0), up = numeric::cross(to_light, across);
-    return to_light + disc_offset.x * across + disc_offset.y * up;
+    const glm::dvec3 across(-travel.y, travel.x, 0), down = numeric::cross(to_light, across);
+    return to_light + disc_offset.x * across + disc_offset.y * down;
 }
 
 /// A point of a disc of light that faces the origin.
-/// @param disc_offset  from the centre, across and up, over the centre's distance from the origin
+/// @param disc_offset  from the centre, across and down, over the centre's distance from the origin
 inline glm::dvec3 point_of_disc(const glm::dvec3& centre, const glm::dvec2& disc_offset) {
     const double distance = numeric::length(centre);
     const double level = numeric::length(glm::dvec2(centre));

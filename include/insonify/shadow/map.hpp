@@ -1,8 +1,8 @@
 // Shadow maps: one height map for each caster, looked up at the nearest texel (`map`) or averaged over several (`pcf`).
 //
-// A target's map covers the target alone, so its texels stay fine in large pictures. A shadow edge is off by at most
-// half a texel. A point on a mesh gets a depth bias along the slope of its facet, see map_lookup.hpp. Point lights are
-// rejected.
+// A target's map covers the target alone, so its texels stay fine in large pictures. On level ground a shadow edge is
+// off by at most half a texel along u and along v, 0.71 texels across a diagonal edge. A point on a mesh gets a depth
+// bias along the slope of its facet, see map_lookup.hpp. Point lights are rejected.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
@@ -130,7 +130,7 @@ class map_occlusion {
 
 /// A map of the casters' heights along the light, looked up at the nearest texel: hard edges.
 struct map {
-    float texels_per_pixel = 1.5f;  ///< of the points' spacing; a shadow edge is off by half a texel at most
+    float texels_per_pixel = 1.5f;  ///< of the points' spacing; a shadow edge is off by 0.71 texels at most
     int largest = 8192;             ///< texels a side; texels are enlarged where a map would exceed it
 
     /// See casting_policy.

@@ -57,7 +57,8 @@ inline float lit(const height_map& map, const receiver_plane& r, int radius) {
     if (!(at.x >= -reach && at.y >= -reach && at.x < static_cast<float>(map.columns()) + reach &&
           at.y < static_cast<float>(map.rows()) + reach))
         return 1;
-    const int column = static_cast<int>(at.x + 64) - 64, row = static_cast<int>(at.y + 64) - 64;  // rounds down
+    const auto column = static_cast<int>(numeric::floor_to_int(static_cast<double>(at.x))),
+               row = static_cast<int>(numeric::floor_to_int(static_cast<double>(at.y)));
     int open = 0;
     for (int j = row - radius; j <= row + radius; ++j)
         for (int i = column - radius; i <= column + radius; ++i) {

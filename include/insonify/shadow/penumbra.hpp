@@ -52,7 +52,7 @@ class penumbra_occlusion {
 
   private:
     /// A point of the light, or none below the horizon.
-    /// @param disc_offset  from the disc's centre, across and up, divided by the light's distance
+    /// @param disc_offset  from the disc's centre, across and down, divided by the light's distance
     static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& disc_offset) {
         if (disc_offset == glm::dvec2(0)) return light;
         if (const auto* source = std::get_if<point_light>(&light))

@@ -36,7 +36,8 @@ inline constexpr std::uint32_t invalid_id = 0xFFFFFFFFu;
 
 /// Triangles of a caster that a test may skip without changing the result: every ray that one of them blocks is blocked
 /// by another, too. Points of the caster itself that face away from the light (points::face_light) are tested against
-/// all of its triangles.
+/// all of its triangles. A point exactly on an edge between a triangle that faces the light and one that does not may
+/// get either result.
 enum class skip {
     nothing,      ///< both sides of all triangles block
     facing,       ///< front faces towards the light: the mesh is closed, and no point lies inside

@@ -37,6 +37,17 @@ std::vector<glm::dvec4> cuts_of_first_edge(const clip_polygon& polygon) {
 
 }  // namespace
 
+TEST_CASE("Corners that rounding puts on alternate sides of a plane do not overflow the clipped polygon") {
+    const std::array<glm::dvec4, 3> corners = {{{0x1.4ad70cp-66, -0x1.8bp-65, 0x1.b921a6p-99, 0x1.e4e0cp-98},
+                                                {-0x1.26f77ap-64, -0x1.e8p-66, 0x1.4cc0acp-97, 0x1.2b85p-98},
+                                                {0x1.cd4cc8p-66, 0x1.4p-70, -0x1.d4d4aap-99, -0x1.88dp-103}}};
+    for (const bool exact : {false, true}) {
+        const in::detail::projection screen(in::detail::pixel_grid{8, 1391, 1257}, in::depth_compare::less, exact);
+        const clip_polygon polygon = screen.clip(corners);
+        CHECK(polygon.count <= static_cast<int>(polygon.corners.size()));
+    }
+}
+
 TEST_CASE("Triangles that share a clipped edge get the same new vertices, to the bit") {
     in::random_sequence random(3);
     int cut_once = 0, cut_twice = 0;

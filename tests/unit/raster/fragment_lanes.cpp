@@ -330,6 +330,65 @@ TEST_CASE("A vertex shader over lanes gets the normals of its vertices") {
     CHECK(drawn(normals_over_lanes{}) == drawn(one_normal{}));
 }
 
+namespace {
+/// Displaces vertices along their normals, one vertex at a time or over lanes.
+struct displaced {
+    auto operator()(const in::vertex& v) const { return seen_from_above({v.position + v.normal, v.normal}); }
+};
+struct displaced_over_lanes : displaced {
+    using displaced::operator();
+    template <class Floats>
+    void operator()(Floats (&clip)[4], Floats* out, const Floats (&position)[3], const Floats (&normal)[3]) const {
+        for (int i = 0; i < 3; ++i) out[i] = position[i] + normal[i];
+        clip[0] = out[0], clip[1] = out[1], clip[2] = Floats{} + 0.01f, clip[3] = 3 - out[2];
+        out[3] = out[2];
+    }
+};
+/// Stores a value in images of other types.
+struct stores_other_types {
+    in::image<std::uint8_t>& bytes;
+    in::image<double>& doubles;
+    template <int N>
+    void operator()(const in::fragment_lanes<N, varyings>& f) const {
+        typename in::fragment_lanes<N, varyings>::floats value{};
+        value = value + 7.25f;
+        f.store(bytes, value);
+        f.store(doubles, value);
+    }
+};
+}  // namespace
+
+TEST_CASE("A vertex shader over lanes gets normals for depth alone and for single pixels, too") {
+    in::mesh m = rubble();
+    in::random_sequence random(3);
+    for (std::size_t i = 0; i < m.positions.size(); ++i)
+        m.normals.push_back(0.2f * glm::vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
+    const in::draw_options<> options{.compare = in::depth_compare::greater, .load = in::depth_load::clear};
+    const auto depth_by = [&](const auto& shader) {
+        in::image<float> depth(150, 110);
+        in::draw(m, shader, in::depth_target{depth}, options);
+        return depth;
+    };
+    CHECK(depth_by(displaced_over_lanes{}) == depth_by(displaced{}));
+    const auto pixels_by = [&](const auto& shader) {
+        in::image<float> depth(150, 110), value(150, 110);
+        const auto height = [](const in::fragment<varyings>& f) { return f.varyings.height; };
+        in::draw(m, shader, height, in::framebuffer<float>{value, depth, true, 0}, options);
+        return value;
+    };
+    CHECK(pixels_by(displaced_over_lanes{}) == pixels_by(displaced{}));
+}
+
+TEST_CASE("Values over lanes are converted to the type of the image that they are stored in") {
+    in::image<std::uint8_t> bytes(150, 110);
+    in::image<double> doubles(150, 110);
+    in::image<float> depth(150, 110);
+    in::draw(rubble(), seen_from_above, stores_other_types{bytes, doubles}, in::framebuffer<void>{depth},
+             {.compare = in::depth_compare::greater, .load = in::depth_load::clear});
+    CHECK(std::count(bytes.pixels().begin(), bytes.pixels().end(), 7) > 8000);
+    for (std::size_t i = 0; i < bytes.size(); ++i) CHECK(doubles.pixels()[i] == (bytes.pixels()[i] == 7 ? 7.25 : 0));
+}
+
 TEST_CASE("A picture of more than 2^16 tiles a side is refused") {
     in::image<float> depth((8 << 16) + 1, 1);
     CHECK_THROWS_AS(in::draw(rubble(), seen_from_above, in::depth_target{depth}, {.tile = 8}), in::invalid_input);

@@ -30,7 +30,8 @@ struct clip_corner {
     glm::dvec3 weights;
 };
 
-/// The part of a triangle inside all planes, convex: three corners and at most one more for each plane.
+/// The part of a triangle inside all planes: three corners and one more for each plane that cuts it. Where rounding
+/// puts several corners across a plane, a cut adds more; those that exceed the array are dropped.
 struct clip_polygon {
     static constexpr int planes = 7;
     std::array<clip_corner, 3 + planes> corners;
@@ -156,7 +157,7 @@ class projection {
         clip_polygon kept;
         kept.was_cut = whole.was_cut;
         const auto keep = [&](const clip_corner& corner) {
-            kept.corners[static_cast<std::size_t>(kept.count++)] = corner;
+            if (kept.count < 3 + clip_polygon::planes) kept.corners[static_cast<std::size_t>(kept.count++)] = corner;
         };
         for (int i = 0; i < whole.count; ++i) {
             const clip_corner& here = whole.corners[static_cast<std::size_t>(i)];

@@ -159,7 +159,7 @@ struct vertex_kernel {
         constexpr int blocks = varyings_record<varyings_of<Shader>>::blocks;
         floats position[3], normal[3] = {}, varyings[static_cast<unsigned>(4 * blocks + 1)] = {};
         transpose_threes(position, &m.positions[start]);
-        if (recorded && !m.normals.empty()) transpose_threes(normal, &m.normals[start]);
+        if (!m.normals.empty()) transpose_threes(normal, &m.normals[start]);
         shader(clip, varyings, position, normal);
         if constexpr (recorded) {
             unroll<Record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
