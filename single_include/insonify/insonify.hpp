@@ -2593,7 +2593,8 @@ concept pixel_function = requires(Fn& fn, const Pixel& pixel) {
     { detail::call_pixel(fn, pixel, 0, 0) } -> std::movable;
 };
 
-/// Column and row of an image's first pixel in a larger image, for filters that depend on the position. Within 2^30.
+/// Column and row of an image's first pixel in a larger image, for filters that depend on the position. Each
+/// coordinate within 2^30 of 0.
 struct pixel_origin {
     int x = 0, y = 0;
 };
@@ -2603,12 +2604,12 @@ struct pixel_area {
     int x, y, width, height;
 };
 
-/// Largest count of a `row` call; its buffers fit the first-level cache several times over.
+/// Largest count of a `row` call. Buffers of this many pixels fit the first-level cache several times over.
 inline constexpr int run_length = 512;
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The rows above a band that a pass computes, if any.
+/// Number of rows above a band that a pass computes.
 template <class Pass>
 int rows_above(const Pass& pass) {
     if constexpr (requires { pass.rows_above(); })
@@ -3373,11 +3374,11 @@ struct draw_kernel {
     }
 };
 
-/// Buffer for the draws of a run, up to 3 before it, the rest of its first block, and up to 63 after it, which fill the
-/// last lanes.
+/// Holds the draws of a run: up to 3 before it, from the start of its first Philox block, and up to 63 unused ones
+/// after it, from the last vectors.
 using draw_buffer = float[run_length + 64];
 
-/// Writes independent draws, one for each pixel and `field`, and returns the first; they lie in `buffer`.
+/// Fills `buffer` with independent draws of a field and returns a pointer to that of the run's first pixel.
 template <class Draws>
 float* white_draws(draw_buffer& buffer, const noise_key& noise, std::uint32_t field, const noise_run& run) {
     const int before = run.x & 3;
@@ -4803,8 +4804,8 @@ inline dynamic_array<float> values_at_ranks(const distribution& source, const di
     return result;
 }
 
-/// Replaces each value by the reference's value of the same rank; equal buckets of the range of values shorten the
-/// search.
+/// Replaces each value by the reference value of the same rank. A uniform grid of buckets over the values narrows the
+/// binary search.
 class rank_pass {
   public:
     rank_pass(distribution source, const distribution& reference) {
@@ -5455,7 +5456,7 @@ auto apply_to(Source&& source, const F& f, E& ex, pixel_origin origin, Sink sink
 inline namespace INSONIFY_FLAGS {
 
 /// Applies a filter; the result is the same bytes for any executor. An image that is moved in is filtered in place
-/// where the pixel type stays.
+/// where the pixel type stays the same.
 ///
 /// @param origin  position of the image's first pixel in a larger one: parts that are filtered one by one get the noise
 ///                of the whole. Measured filters measure the part.
@@ -5862,7 +5863,7 @@ inline namespace INSONIFY_ABI {
 
 /// Where an object stands and how it is turned: scaled first, then rolled, pitched, yawed, and moved.
 ///
-/// The frame is right-handed with z up, and a positive angle is counter-clockwise seen against its axis:
+/// The frame is right-handed with z up; angles follow the right-hand rule about their axis:
 ///   yaw    about z, from x (starboard) towards y (forward)
 ///   pitch  about y, from z towards x: the +x end goes down
 ///   roll   about x, from y towards z: the +y side goes up
@@ -6120,7 +6121,7 @@ inline void append_arc(dynamic_array<profile_point>& profile, double radius, dou
 #endif
 
 /// Distance from the centre of a unit ball of `segments` by `rings` to the nearest of its faces, which is at the
-/// equator. Faces are trapezia, hence plane.
+/// equator. Faces are trapezoids, hence planar.
 inline double nearest_face(int segments, int rings) {
     const double across = numeric::sin_cos_turns(0.5 / segments).cosine;  // of half a segment
     const double along = numeric::sin_cos_turns(0.25 / rings).cosine;     // of half a ring
@@ -6246,7 +6247,7 @@ struct cone {
 
 inline namespace INSONIFY_ONCE {
 
-/// The rims (and the tip) have vertices of their own for each side's normal.
+/// Vertices are duplicated along the rims and at the tip, one for each normal.
 /// @throws invalid_input for a radius or height that is not finite and positive, a top radius that is not finite or
 ///         negative, or segments outside 3 to 2^20
 INSONIFY_FUNCTION mesh to_mesh(const cone& shape);
@@ -6320,7 +6321,8 @@ INSONIFY_FUNCTION mesh to_mesh(const cube& shape) {
     for (int along = 0; along < 3; ++along) {
         detail::require_positive("cube.size", 0.5f * shape.size[along]);
         for (const float side : {-1.0f, 1.0f}) {
-            // Across the face the axes follow cyclically; on the negative side they change places to face outwards.
+            // u and v follow the normal's axis cyclically; on the negative side they are swapped, to stay
+            // counter-clockwise.
             const int u = (along + (side > 0 ? 1 : 2)) % 3;
             const int v = (along + (side > 0 ? 2 : 1)) % 3;
             const auto first = static_cast<std::uint32_t>(out.positions.size());
@@ -6370,7 +6372,7 @@ struct capsule {
 
 inline namespace INSONIFY_ONCE {
 
-/// 4 segments + 2 vertices, of which the rims have two sets, one for each normal.
+/// 4 segments + 2 vertices: each rim has two rings, one for each normal.
 /// @throws invalid_input for a radius or length that is not finite and positive, or segments outside 3 to 2^20
 INSONIFY_FUNCTION mesh to_mesh(const cylinder& shape);
 
@@ -7347,7 +7349,7 @@ class shared_mesh {
     shared_mesh() : properties_(std::make_shared<detail::mesh_properties>()) {}
     /// @throws invalid_input for indices or normals that don't match the positions
     INSONIFY_MEMBER shared_mesh(mesh m) : properties_(detail::mesh_properties_of(std::move(m))) {}
-    /// The mesh of a shape with a `to_mesh`. Primitives skip the analysis, because their type tells its results; a
+    /// The mesh of a shape with a `to_mesh`. Primitives skip the analysis, whose results follow from their type; a
     /// program that has no other shapes does not compile it.
     template <class Shape>
     INSONIFY_MEMBER static shared_mesh of(const Shape& shape) {
@@ -11379,7 +11381,7 @@ inline namespace INSONIFY_ABI {
 /// The side of the track that a channel faces: left or right.
 enum class side : std::uint8_t { port, starboard };
 
-/// The quantity that columns of the picture count.
+/// What the columns of a picture measure.
 enum class across_track {
     slant_range,   ///< travel time: water column, layover
     ground_range,  ///< position across the track: a map, with the same shadows
@@ -13838,7 +13840,8 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/raster/detail/tile_buffer.hpp ----------------------------------------------------
 // The depth and visibility buffer of one tile.
 //
-// Visibility is resolved here, in the first-level cache, before anything is shaded: every pixel is shaded once.
+// Visibility is resolved here, in cache (40 KiB for 64 x 64 pixels), before anything is shaded: every pixel is shaded
+// once.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -17527,10 +17530,10 @@ struct undecided_pixel {
     float direct;               ///< light that the source adds if nothing blocks it
 };
 
-/// Output of shading for the shadow pass: a list for each tile, as few pixels are undecided.
+/// Output of shading for the shadow pass: a list for each tile, since few pixels are undecided.
 ///
-/// A pixel whose triangle is known to be lit gets all its light at once, any other its sky and ambient light. Entries
-/// of pixels that a nearer surface overwrites stay listed; of a marked pixel, the last entry is valid.
+/// Pixels of triangles that are known to be lit get all their light at once, others only sky and ambient light. Entries
+/// of pixels that a nearer surface has overwritten remain in the list; only the last entry of a marked pixel is valid.
 class undecided_light {
   public:
     undecided_light() = default;
@@ -17648,7 +17651,7 @@ struct surface_varyings {
     float height;
 };
 
-/// Whether a mesh of this box is much smaller than its coordinates.
+/// Whether a mesh with this box is far from the origin for its size.
 inline bool is_far_from_origin(const bounding_box& box) {
     if (box.empty()) return false;
     const glm::dvec3 size = box.size();
@@ -18008,9 +18011,9 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/sonar/overhead/detail/point_pass.hpp ---------------------------------------------
 // Computes the surface points of undecided pixels, and whether each faces the light.
 //
-// The point is where the ray through the pixel's centre meets the plane of the pixel's triangle, in doubles, held to
-// the triangle: rounding to sub-pixels may show a triangle beside its edge. Everything is computed in the mesh's own
-// frame, in which the camera and the light are placed once.
+// The point is where the ray through the pixel's centre meets the plane of the pixel's triangle, in doubles, clamped to
+// the triangle: sub-pixel snapping may cover pixels slightly outside it. Everything is computed in the mesh's own
+// frame, into which the camera and the light are transformed once.
 //
 // Based on: Christopher A. Burns, Warren A. Hunt. The Visibility Buffer: A Cache-Friendly Approach to Deferred Shading.
 // JCGT 2, 2013. Tomas Moeller, Ben Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997.
@@ -18084,7 +18087,8 @@ struct point_kernel {
     template <int N>
     using corners = const glm::uvec3 * [static_cast<unsigned>(N)];
 
-    /// The vectors at one corner of each triangle. Whole rows of four floats are read where none is the array's last.
+    /// The vectors at one corner of each triangle. Loads four floats each, unless a vector is the last of the array,
+    /// where the fourth float would lie beyond the end.
     template <int N>
     INSONIFY_INLINE static void fetch(lanes<float, N> (&into)[3], const glm::vec3* vectors, const corners<N>& t,
                                       int corner, bool has_last) {
@@ -18191,7 +18195,8 @@ struct point_kernel {
     /// adjacent triangle, too, which then would not block it.
     static constexpr double border = 0x1p-20;
 
-    /// Rounding to sub-pixels may show a triangle beside its edge; one seen from its edge gives NaN or infinity.
+    /// Sub-pixel snapping may draw a pixel slightly outside its triangle, where weights are negative; a triangle seen
+    /// edge-on gives NaN or infinity.
     template <int N>
     INSONIFY_RARE static void clamp_to_triangle(lanes<double, N>& b, lanes<double, N>& c) {
         using reals = lanes<double, N>;
@@ -18768,8 +18773,8 @@ class shadow_pass {
         for (const drawn_object& s : objects) frames_.push_back({view, s.placed.to_rig});
     }
 
-    /// Tests the points of every tile and adds the light that arrives. Occlusion that sees all points at once gets
-    /// those of all tiles before any is finished.
+    /// Tests the points of every tile and adds the light that arrives. A collective occlusion receives the points of
+    /// all tiles before any tile is finished.
     template <class Occlusion, executor E>
     void cast(const Occlusion& occlusion, E& ex) {
         constexpr bool is_collective = shadow::collective_occlusion<Occlusion>;
@@ -18841,13 +18846,13 @@ class shadow_pass {
         return count;
     }
 
-    /// Tests the points of all pixels that are still marked. They are few, and found again: storing them in the first
-    /// pass would take memory for all points.
+    /// Tests the points of all pixels that are still marked. They are few, so their points are computed again: keeping
+    /// those of the first pass would take memory for all points.
     /// @param undecided  number of points of each tile
     template <class Occlusion, executor E>
     void test_together(const Occlusion& occlusion, const dynamic_array<std::size_t>& undecided, E& ex) {
-        // A list holds the points of several tiles, of more in large pictures: it makes up to two batches, of which
-        // there are at most max_batches.
+        // Each list holds the points of several tiles, more of them in larger pictures, and makes up to two batches;
+        // max_batches bounds the number of batches.
         const std::size_t tiles_per_list = (std::max)(grain_, tiles_.count() / (shadow::max_batches / 2) + 1);
         dynamic_array<std::size_t> starts{0};  // of the points of each list
         for (std::size_t i = 0; i < tiles_.count(); ++i) {
@@ -20149,7 +20154,7 @@ class obj_reader {
         reads_texture_ = true;
         parse();
         textured_mesh out = assemble(true);
-        // A seam of the texture is no crease: vertices that it divides keep one normal.
+        // Texture seams are not creases: vertices that a seam splits keep one normal.
         const mesh undivided = assemble(false).shape;
         for (std::size_t t = 0; t < undivided.triangles.size(); ++t)
             for (int i = 0; i < 3; ++i)
@@ -22058,7 +22063,7 @@ struct lobster_pot {
     int hoops = 4;            ///< 2 to 16
     float mesh_size = 0.07f;  ///< spacing of the twines, metres, 1/64 of the largest size to that size; 0: no net
     float twine = 0.005f;     ///< diameter of the net's bars, metres, 1/2000 of the largest size to `bar`
-    float crushed = 0;        ///< 0: upright, 1: hoops bent over until a fifth of the height is left
+    float crushed = 0;        ///< 0: upright, 1: hoops bent over until about a quarter of the height is left
     int segments = 12;        ///< straight pieces of a hoop, 6 to 256
 };
 
@@ -24426,7 +24431,7 @@ class penumbra_occlusion {
   public:
     /// See casting_policy.
     /// @param radius   of the light over its distance
-    /// @param samples  points on the disc; those below the horizon are counted but give no light
+    /// @param samples  points on the disc; those of parallel light below the horizon are counted but give no light
     /// @throws invalid_input as exact_occlusion does
     template <executor E>
     penumbra_occlusion(double radius, int samples, std::span<const caster> casters, const any_light& light,
@@ -24758,7 +24763,7 @@ struct noise_floor {
 
 namespace detail {
 
-/// Backscatter at smaller grazing angles is that at this one, by its sine.
+/// Below this sine the law is extended linearly: law(min_grazing_sine) x sine / min_grazing_sine.
 inline constexpr float min_grazing_sine = 1e-3f;
 
 }  // namespace detail
@@ -24927,7 +24932,7 @@ class sonar_equation {
         const auto level_at = [&](double sine) {
             const double cosine = numeric::square_root(1 - sine * sine);
             const double length = e.is_slant_range ? e.bin / cosine : e.bin;
-            // Rays take the law from the same angle up.
+            // As for rays, the law is extended linearly below min_grazing_sine.
             const double clamped = (std::max)(sine, static_cast<double>(detail::min_grazing_sine));
             return static_cast<double>(law(static_cast<float>(clamped))) * (sine / clamped) * length * e.spacing *
                    over_direction(cosine, sine) * over_range(e.range, e.spacing);
@@ -25118,8 +25123,8 @@ inline namespace INSONIFY_ABI {
 /// Options of side-scan pictures. The types select what is computed: Labels are `labels` or `no_labels`, Equation lists
 /// the parts of the sonar equation.
 ///
-/// Labels are those of the surfaces themselves: pulse and horizontal beam blur the image alone, so that a strong target
-/// shows beyond its box in it.
+/// Labels are those of the surfaces themselves: pulse and horizontal beam blur the image alone, so the echo of a strong
+/// target extends beyond its bounding box.
 template <class Labels = labels, backscatter_law Law = lambert_backscatter, class Equation = sonar_equation<level_gain>>
 struct record_options {
     Law law{};
@@ -25197,7 +25202,7 @@ inline namespace INSONIFY_FLAGS {
 /// Records a track of any shape, with yaw, pitch, roll and heave of every ping.
 ///
 /// Pings are numbered from 0: set `rows.first` of a part of a longer track before `with_speckle`. A `horizontal_beam`
-/// blurs over the given pings alone, so parts of a track need more pings at their ends, to be dropped.
+/// blurs over the given pings alone: record extra pings at the ends of each part, and drop their rows.
 ///
 /// @param s        the seabed and its targets
 /// @param track    pings in order; row i of the result is ping i
@@ -25885,10 +25890,10 @@ class ping_fan {
     std::size_t size() const { return rays_.size(); }
     const ray& operator[](std::size_t i) const { return rays_[i]; }
 
-    /// Positive for points outwards of a ray: the sine of the angle between them times the point's distance.
+    /// Positive for points farther out than a ray: the sine of the angle between them times the point's distance.
     static double beyond(const ray& r, double x, double down) { return x * r.cosine - down * r.sine; }
 
-    /// The first ray through a point or outwards of it.
+    /// Index of the first ray that passes through a point or farther out.
     std::size_t first_over(double x, double down) const {
         const auto at =
             std::partition_point(rays_.begin(), rays_.end(), [&](const ray& r) { return beyond(r, x, down) > 0; });
@@ -25957,8 +25962,8 @@ struct range_axis {
     }
 };
 
-/// Calls `visit(bin, fraction, length)` for each of `count` bins between two positions: the fraction of the way that
-/// lies in the bin, and its length in bins. Declared inline, as g++ inlines other templates less: 4 % of a recording.
+/// Calls `visit(bin, fraction, length)` for each of `count` bins between two positions: the fraction of the interval
+/// that lies in the bin, and its length in bins. Declared inline: g++ otherwise inlines it less, which costs 4 %.
 template <class Visit>
 inline void distribute(std::size_t count, float low, float high, const Visit& visit) {
     const auto end = static_cast<float>(count);
@@ -26998,7 +27003,7 @@ INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/record.hpp -------------------------------------------------------
 // Side-scan pictures: pings by ranges, with the water column, the first return, layover and shadows, and labels for
-// every bin. Laws of your own need this header in the compiled form.
+// every bin. In the compiled form, include this header to record with a law of your own.
 
 
 // ------------ insonify/sonar/side_scan/swath.hpp --------------------------------------------------------
@@ -27020,7 +27025,7 @@ image<T> mirrored(const image<T>& source) {
     return out;
 }
 
-/// The picture rotated by 180 degrees: of a rig that faces backwards, with forward up again.
+/// The picture rotated by 180 degrees. That of a rig that faces backwards then has forward up.
 template <class T>
 image<T> rotated_180(const image<T>& source) {
     image<T> out(source.width(), source.height());
@@ -27145,8 +27150,8 @@ class ping_noise {
     philox_key key_;
 };
 
-/// Draws of unit power for bins in a row, real and imaginary parts in turn: those of normal_pair, to the same bits. One
-/// block of Philox serves two bins.
+/// Complex normal draws of unit power for consecutive bins, real and imaginary parts interleaved, bit-identical to
+/// normal_pair. One block of Philox serves two bins.
 struct speckle_draw_kernel {
     static constexpr std::size_t max_lanes = 4;  ///< blocks at a time
 
@@ -27995,7 +28000,7 @@ inline void check_length(const char* name, float value) {
     require_range(name, value, 1, 1e9f, "1 to 1e9 pixels");
 }
 
-/// A gain as a float: finite, so that shadows stay 0.
+/// A gain as a float, at most 2^127: infinity would make the zeros of shadows NaN.
 inline float gain_of(double decibels) {
     return static_cast<float>((std::min)(from_decibels(decibels), 0x1p127));
 }
@@ -28051,7 +28056,7 @@ class banding_law {
 
     Banding b_;
     philox_key drift_, jitter_;
-    std::optional<int> row_;  // of the factor; any number, as images have any origin
+    std::optional<int> row_;  // that factor_ belongs to; no int can mark "none", as images may have any origin
     float factor_ = 1;
 };
 
@@ -28076,8 +28081,8 @@ struct range_gain_error {
     }
 };
 
-/// Pings that are brighter or darker than their neighbours, in decibels: drift over many pings, and independent jitter
-/// of each. Row `y` is ping first_ping + step * y, so that recordings made in pieces fit together.
+/// Pings that are brighter or darker than adjacent ones, in decibels: drift over many pings, and independent jitter of
+/// each. Row `y` is ping first_ping + step * y, so that recordings made in pieces fit together.
 struct ping_banding {
     float drift = 1;              ///< decibels (rms), 0 to 60
     float length = 40;            ///< pings between nodes of the drift, 1 to 1e9
@@ -28181,9 +28186,10 @@ INSONIFY_ARITHMETIC_END
 // Noise and reverberation besides the seabed: receiver noise, which time-varied gain raises with range, scatterers in
 // the water, and the sea surface.
 //
-// The surface return begins straight above the sonar, at a slant range of its depth, as a bright line with a tail;
-// volume reverberation comes from all ranges (R. J. Urick. Principles of Underwater Sound, 3rd edition, 1983, chapter
-// 8). Intensities are those of a recording after its gain: 1 is a level bottom of reflectivity one under `level_gain`.
+// The surface return begins straight above the sonar, at a slant range equal to the sonar's depth, as a bright line
+// with a tail; volume reverberation comes from all ranges (R. J. Urick. Principles of Underwater Sound, 3rd edition,
+// 1983, chapter 8). Intensities are those of a recording after its gain: 1 is a level bottom of reflectivity one under
+// `level_gain`.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -28240,7 +28246,7 @@ class water_law {
     philox_key key_;
     dynamic_array<float> mean_background_;
     int first_ = 0;
-    std::optional<int> row_;  // of the start below; any number, as images have any origin
+    std::optional<int> row_;  // that begins_ belongs to; no int can mark "none", as images may have any origin
     double begins_ = 0;
 };
 

@@ -50,7 +50,8 @@ concept pixel_function = requires(Fn& fn, const Pixel& pixel) {
     { detail::call_pixel(fn, pixel, 0, 0) } -> std::movable;
 };
 
-/// Column and row of an image's first pixel in a larger image, for filters that depend on the position. Within 2^30.
+/// Column and row of an image's first pixel in a larger image, for filters that depend on the position. Each
+/// coordinate within 2^30 of 0.
 struct pixel_origin {
     int x = 0, y = 0;
 };
@@ -60,12 +61,12 @@ struct pixel_area {
     int x, y, width, height;
 };
 
-/// Largest count of a `row` call; its buffers fit the first-level cache several times over.
+/// Largest count of a `row` call. Buffers of this many pixels fit the first-level cache several times over.
 inline constexpr int run_length = 512;
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The rows above a band that a pass computes, if any.
+/// Number of rows above a band that a pass computes.
 template <class Pass>
 int rows_above(const Pass& pass) {
     if constexpr (requires { pass.rows_above(); })

@@ -119,8 +119,8 @@ inline dynamic_array<float> values_at_ranks(const distribution& source, const di
     return result;
 }
 
-/// Replaces each value by the reference's value of the same rank; equal buckets of the range of values shorten the
-/// search.
+/// Replaces each value by the reference value of the same rank. A uniform grid of buckets over the values narrows the
+/// binary search.
 class rank_pass {
   public:
     rank_pass(distribution source, const distribution& reference) {

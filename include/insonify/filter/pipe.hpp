@@ -94,7 +94,7 @@ auto apply_to(Source&& source, const F& f, E& ex, pixel_origin origin, Sink sink
 inline namespace INSONIFY_FLAGS {
 
 /// Applies a filter; the result is the same bytes for any executor. An image that is moved in is filtered in place
-/// where the pixel type stays.
+/// where the pixel type stays the same.
 ///
 /// @param origin  position of the image's first pixel in a larger one: parts that are filtered one by one get the noise
 ///                of the whole. Measured filters measure the part.

@@ -21,7 +21,7 @@ struct cone {
 
 inline namespace INSONIFY_ONCE {
 
-/// The rims (and the tip) have vertices of their own for each side's normal.
+/// Vertices are duplicated along the rims and at the tip, one for each normal.
 /// @throws invalid_input for a radius or height that is not finite and positive, a top radius that is not finite or
 ///         negative, or segments outside 3 to 2^20
 INSONIFY_FUNCTION mesh to_mesh(const cone& shape);

@@ -30,7 +30,8 @@ INSONIFY_FUNCTION mesh to_mesh(const cube& shape) {
     for (int along = 0; along < 3; ++along) {
         detail::require_positive("cube.size", 0.5f * shape.size[along]);
         for (const float side : {-1.0f, 1.0f}) {
-            // Across the face the axes follow cyclically; on the negative side they change places to face outwards.
+            // u and v follow the normal's axis cyclically; on the negative side they are swapped, to stay
+            // counter-clockwise.
             const int u = (along + (side > 0 ? 1 : 2)) % 3;
             const int v = (along + (side > 0 ? 2 : 1)) % 3;
             const auto first = static_cast<std::uint32_t>(out.positions.size());

@@ -27,7 +27,7 @@ struct capsule {
 
 inline namespace INSONIFY_ONCE {
 
-/// 4 segments + 2 vertices, of which the rims have two sets, one for each normal.
+/// 4 segments + 2 vertices: each rim has two rings, one for each normal.
 /// @throws invalid_input for a radius or length that is not finite and positive, or segments outside 3 to 2^20
 INSONIFY_FUNCTION mesh to_mesh(const cylinder& shape);
 

@@ -51,7 +51,7 @@ class obj_reader {
         reads_texture_ = true;
         parse();
         textured_mesh out = assemble(true);
-        // A seam of the texture is no crease: vertices that it divides keep one normal.
+        // Texture seams are not creases: vertices that a seam splits keep one normal.
         const mesh undivided = assemble(false).shape;
         for (std::size_t t = 0; t < undivided.triangles.size(); ++t)
             for (int i = 0; i < 3; ++i)

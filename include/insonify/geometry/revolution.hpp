@@ -66,7 +66,7 @@ inline void append_arc(dynamic_array<profile_point>& profile, double radius, dou
 #endif
 
 /// Distance from the centre of a unit ball of `segments` by `rings` to the nearest of its faces, which is at the
-/// equator. Faces are trapezia, hence plane.
+/// equator. Faces are trapezoids, hence planar.
 inline double nearest_face(int segments, int rings) {
     const double across = numeric::sin_cos_turns(0.5 / segments).cosine;  // of half a segment
     const double along = numeric::sin_cos_turns(0.25 / rings).cosine;     // of half a ring

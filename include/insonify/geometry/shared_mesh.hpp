@@ -118,7 +118,7 @@ class shared_mesh {
     shared_mesh() : properties_(std::make_shared<detail::mesh_properties>()) {}
     /// @throws invalid_input for indices or normals that don't match the positions
     INSONIFY_MEMBER shared_mesh(mesh m) : properties_(detail::mesh_properties_of(std::move(m))) {}
-    /// The mesh of a shape with a `to_mesh`. Primitives skip the analysis, because their type tells its results; a
+    /// The mesh of a shape with a `to_mesh`. Primitives skip the analysis, whose results follow from their type; a
     /// program that has no other shapes does not compile it.
     template <class Shape>
     INSONIFY_MEMBER static shared_mesh of(const Shape& shape) {

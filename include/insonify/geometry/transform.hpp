@@ -23,7 +23,7 @@ inline namespace INSONIFY_ABI {
 
 /// Where an object stands and how it is turned: scaled first, then rolled, pitched, yawed, and moved.
 ///
-/// The frame is right-handed with z up, and a positive angle is counter-clockwise seen against its axis:
+/// The frame is right-handed with z up; angles follow the right-hand rule about their axis:
 ///   yaw    about z, from x (starboard) towards y (forward)
 ///   pitch  about y, from z towards x: the +x end goes down
 ///   roll   about x, from y towards z: the +y side goes up

@@ -23,7 +23,7 @@ class penumbra_occlusion {
   public:
     /// See casting_policy.
     /// @param radius   of the light over its distance
-    /// @param samples  points on the disc; those below the horizon are counted but give no light
+    /// @param samples  points on the disc; those of parallel light below the horizon are counted but give no light
     /// @throws invalid_input as exact_occlusion does
     template <executor E>
     penumbra_occlusion(double radius, int samples, std::span<const caster> casters, const any_light& light,

@@ -169,11 +169,11 @@ struct draw_kernel {
     }
 };
 
-/// Buffer for the draws of a run, up to 3 before it, the rest of its first block, and up to 63 after it, which fill the
-/// last lanes.
+/// Holds the draws of a run: up to 3 before it, from the start of its first Philox block, and up to 63 unused ones
+/// after it, from the last vectors.
 using draw_buffer = float[run_length + 64];
 
-/// Writes independent draws, one for each pixel and `field`, and returns the first; they lie in `buffer`.
+/// Fills `buffer` with independent draws of a field and returns a pointer to that of the run's first pixel.
 template <class Draws>
 float* white_draws(draw_buffer& buffer, const noise_key& noise, std::uint32_t field, const noise_run& run) {
     const int before = run.x & 3;

@@ -24,7 +24,7 @@ struct lobster_pot {
     int hoops = 4;            ///< 2 to 16
     float mesh_size = 0.07f;  ///< spacing of the twines, metres, 1/64 of the largest size to that size; 0: no net
     float twine = 0.005f;     ///< diameter of the net's bars, metres, 1/2000 of the largest size to `bar`
-    float crushed = 0;        ///< 0: upright, 1: hoops bent over until a fifth of the height is left
+    float crushed = 0;        ///< 0: upright, 1: hoops bent over until about a quarter of the height is left
     int segments = 12;        ///< straight pieces of a hoop, 6 to 256
 };
 

@@ -1,6 +1,7 @@
 // The depth and visibility buffer of one tile.
 //
-// Visibility is resolved here, in the first-level cache, before anything is shaded: every pixel is shaded once.
+// Visibility is resolved here, in cache (40 KiB for 64 x 64 pixels), before anything is shaded: every pixel is shaded
+// once.
 #pragma once
 
 #include <insonify/core/simd/lanes.hpp>

@@ -41,8 +41,8 @@ class ping_noise {
     philox_key key_;
 };
 
-/// Draws of unit power for bins in a row, real and imaginary parts in turn: those of normal_pair, to the same bits. One
-/// block of Philox serves two bins.
+/// Complex normal draws of unit power for consecutive bins, real and imaginary parts interleaved, bit-identical to
+/// normal_pair. One block of Philox serves two bins.
 struct speckle_draw_kernel {
     static constexpr std::size_t max_lanes = 4;  ///< blocks at a time
 

@@ -30,7 +30,7 @@ inline void check_length(const char* name, float value) {
     require_range(name, value, 1, 1e9f, "1 to 1e9 pixels");
 }
 
-/// A gain as a float: finite, so that shadows stay 0.
+/// A gain as a float, at most 2^127: infinity would make the zeros of shadows NaN.
 inline float gain_of(double decibels) {
     return static_cast<float>((std::min)(from_decibels(decibels), 0x1p127));
 }
@@ -86,7 +86,7 @@ class banding_law {
 
     Banding b_;
     philox_key drift_, jitter_;
-    std::optional<int> row_;  // of the factor; any number, as images have any origin
+    std::optional<int> row_;  // that factor_ belongs to; no int can mark "none", as images may have any origin
     float factor_ = 1;
 };
 
@@ -111,8 +111,8 @@ struct range_gain_error {
     }
 };
 
-/// Pings that are brighter or darker than their neighbours, in decibels: drift over many pings, and independent jitter
-/// of each. Row `y` is ping first_ping + step * y, so that recordings made in pieces fit together.
+/// Pings that are brighter or darker than adjacent ones, in decibels: drift over many pings, and independent jitter of
+/// each. Row `y` is ping first_ping + step * y, so that recordings made in pieces fit together.
 struct ping_banding {
     float drift = 1;              ///< decibels (rms), 0 to 60
     float length = 40;            ///< pings between nodes of the drift, 1 to 1e9

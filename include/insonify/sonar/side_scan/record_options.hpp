@@ -13,8 +13,8 @@ inline namespace INSONIFY_ABI {
 /// Options of side-scan pictures. The types select what is computed: Labels are `labels` or `no_labels`, Equation lists
 /// the parts of the sonar equation.
 ///
-/// Labels are those of the surfaces themselves: pulse and horizontal beam blur the image alone, so that a strong target
-/// shows beyond its box in it.
+/// Labels are those of the surfaces themselves: pulse and horizontal beam blur the image alone, so the echo of a strong
+/// target extends beyond its bounding box.
 template <class Labels = labels, backscatter_law Law = lambert_backscatter, class Equation = sonar_equation<level_gain>>
 struct record_options {
     Law law{};

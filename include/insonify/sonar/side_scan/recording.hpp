@@ -55,7 +55,7 @@ inline namespace INSONIFY_FLAGS {
 /// Records a track of any shape, with yaw, pitch, roll and heave of every ping.
 ///
 /// Pings are numbered from 0: set `rows.first` of a part of a longer track before `with_speckle`. A `horizontal_beam`
-/// blurs over the given pings alone, so parts of a track need more pings at their ends, to be dropped.
+/// blurs over the given pings alone: record extra pings at the ends of each part, and drop their rows.
 ///
 /// @param s        the seabed and its targets
 /// @param track    pings in order; row i of the result is ping i

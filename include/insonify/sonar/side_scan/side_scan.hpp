@@ -21,7 +21,7 @@ inline namespace INSONIFY_ABI {
 /// The side of the track that a channel faces: left or right.
 enum class side : std::uint8_t { port, starboard };
 
-/// The quantity that columns of the picture count.
+/// What the columns of a picture measure.
 enum class across_track {
     slant_range,   ///< travel time: water column, layover
     ground_range,  ///< position across the track: a map, with the same shadows

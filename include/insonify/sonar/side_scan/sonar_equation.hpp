@@ -103,7 +103,7 @@ struct noise_floor {
 
 namespace detail {
 
-/// Backscatter at smaller grazing angles is that at this one, by its sine.
+/// Below this sine the law is extended linearly: law(min_grazing_sine) x sine / min_grazing_sine.
 inline constexpr float min_grazing_sine = 1e-3f;
 
 }  // namespace detail
@@ -272,7 +272,7 @@ class sonar_equation {
         const auto level_at = [&](double sine) {
             const double cosine = numeric::square_root(1 - sine * sine);
             const double length = e.is_slant_range ? e.bin / cosine : e.bin;
-            // Rays take the law from the same angle up.
+            // As for rays, the law is extended linearly below min_grazing_sine.
             const double clamped = (std::max)(sine, static_cast<double>(detail::min_grazing_sine));
             return static_cast<double>(law(static_cast<float>(clamped))) * (sine / clamped) * length * e.spacing *
                    over_direction(cosine, sine) * over_range(e.range, e.spacing);

@@ -19,7 +19,7 @@ image<T> mirrored(const image<T>& source) {
     return out;
 }
 
-/// The picture rotated by 180 degrees: of a rig that faces backwards, with forward up again.
+/// The picture rotated by 180 degrees. That of a rig that faces backwards then has forward up.
 template <class T>
 image<T> rotated_180(const image<T>& source) {
     image<T> out(source.width(), source.height());

@@ -1,9 +1,10 @@
 // Noise and reverberation besides the seabed: receiver noise, which time-varied gain raises with range, scatterers in
 // the water, and the sea surface.
 //
-// The surface return begins straight above the sonar, at a slant range of its depth, as a bright line with a tail;
-// volume reverberation comes from all ranges (R. J. Urick. Principles of Underwater Sound, 3rd edition, 1983, chapter
-// 8). Intensities are those of a recording after its gain: 1 is a level bottom of reflectivity one under `level_gain`.
+// The surface return begins straight above the sonar, at a slant range equal to the sonar's depth, as a bright line
+// with a tail; volume reverberation comes from all ranges (R. J. Urick. Principles of Underwater Sound, 3rd edition,
+// 1983, chapter 8). Intensities are those of a recording after its gain: 1 is a level bottom of reflectivity one under
+// `level_gain`.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
@@ -72,7 +73,7 @@ class water_law {
     philox_key key_;
     dynamic_array<float> mean_background_;
     int first_ = 0;
-    std::optional<int> row_;  // of the start below; any number, as images have any origin
+    std::optional<int> row_;  // that begins_ belongs to; no int can mark "none", as images may have any origin
     double begins_ = 0;
 };
 

@@ -1,8 +1,8 @@
 // Computes the surface points of undecided pixels, and whether each faces the light.
 //
-// The point is where the ray through the pixel's centre meets the plane of the pixel's triangle, in doubles, held to
-// the triangle: rounding to sub-pixels may show a triangle beside its edge. Everything is computed in the mesh's own
-// frame, in which the camera and the light are placed once.
+// The point is where the ray through the pixel's centre meets the plane of the pixel's triangle, in doubles, clamped to
+// the triangle: sub-pixel snapping may cover pixels slightly outside it. Everything is computed in the mesh's own
+// frame, into which the camera and the light are transformed once.
 //
 // Based on: Christopher A. Burns, Warren A. Hunt. The Visibility Buffer: A Cache-Friendly Approach to Deferred Shading.
 // JCGT 2, 2013. Tomas Moeller, Ben Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997.
@@ -83,7 +83,8 @@ struct point_kernel {
     template <int N>
     using corners = const glm::uvec3 * [static_cast<unsigned>(N)];
 
-    /// The vectors at one corner of each triangle. Whole rows of four floats are read where none is the array's last.
+    /// The vectors at one corner of each triangle. Loads four floats each, unless a vector is the last of the array,
+    /// where the fourth float would lie beyond the end.
     template <int N>
     INSONIFY_INLINE static void fetch(lanes<float, N> (&into)[3], const glm::vec3* vectors, const corners<N>& t,
                                       int corner, bool has_last) {
@@ -190,7 +191,8 @@ struct point_kernel {
     /// adjacent triangle, too, which then would not block it.
     static constexpr double border = 0x1p-20;
 
-    /// Rounding to sub-pixels may show a triangle beside its edge; one seen from its edge gives NaN or infinity.
+    /// Sub-pixel snapping may draw a pixel slightly outside its triangle, where weights are negative; a triangle seen
+    /// edge-on gives NaN or infinity.
     template <int N>
     INSONIFY_RARE static void clamp_to_triangle(lanes<double, N>& b, lanes<double, N>& c) {
         using reals = lanes<double, N>;

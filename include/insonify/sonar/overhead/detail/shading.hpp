@@ -34,7 +34,7 @@ struct surface_varyings {
     float height;
 };
 
-/// Whether a mesh of this box is much smaller than its coordinates.
+/// Whether a mesh with this box is far from the origin for its size.
 inline bool is_far_from_origin(const bounding_box& box) {
     if (box.empty()) return false;
     const glm::dvec3 size = box.size();

@@ -53,8 +53,8 @@ class shadow_pass {
         for (const drawn_object& s : objects) frames_.push_back({view, s.placed.to_rig});
     }
 
-    /// Tests the points of every tile and adds the light that arrives. Occlusion that sees all points at once gets
-    /// those of all tiles before any is finished.
+    /// Tests the points of every tile and adds the light that arrives. A collective occlusion receives the points of
+    /// all tiles before any tile is finished.
     template <class Occlusion, executor E>
     void cast(const Occlusion& occlusion, E& ex) {
         constexpr bool is_collective = shadow::collective_occlusion<Occlusion>;
@@ -126,13 +126,13 @@ class shadow_pass {
         return count;
     }
 
-    /// Tests the points of all pixels that are still marked. They are few, and found again: storing them in the first
-    /// pass would take memory for all points.
+    /// Tests the points of all pixels that are still marked. They are few, so their points are computed again: keeping
+    /// those of the first pass would take memory for all points.
     /// @param undecided  number of points of each tile
     template <class Occlusion, executor E>
     void test_together(const Occlusion& occlusion, const dynamic_array<std::size_t>& undecided, E& ex) {
-        // A list holds the points of several tiles, of more in large pictures: it makes up to two batches, of which
-        // there are at most max_batches.
+        // Each list holds the points of several tiles, more of them in larger pictures, and makes up to two batches;
+        // max_batches bounds the number of batches.
         const std::size_t tiles_per_list = (std::max)(grain_, tiles_.count() / (shadow::max_batches / 2) + 1);
         dynamic_array<std::size_t> starts{0};  // of the points of each list
         for (std::size_t i = 0; i < tiles_.count(); ++i) {

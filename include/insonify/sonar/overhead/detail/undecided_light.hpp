@@ -58,10 +58,10 @@ struct undecided_pixel {
     float direct;               ///< light that the source adds if nothing blocks it
 };
 
-/// Output of shading for the shadow pass: a list for each tile, as few pixels are undecided.
+/// Output of shading for the shadow pass: a list for each tile, since few pixels are undecided.
 ///
-/// A pixel whose triangle is known to be lit gets all its light at once, any other its sky and ambient light. Entries
-/// of pixels that a nearer surface overwrites stay listed; of a marked pixel, the last entry is valid.
+/// Pixels of triangles that are known to be lit get all their light at once, others only sky and ambient light. Entries
+/// of pixels that a nearer surface has overwritten remain in the list; only the last entry of a marked pixel is valid.
 class undecided_light {
   public:
     undecided_light() = default;

@@ -89,10 +89,10 @@ class ping_fan {
     std::size_t size() const { return rays_.size(); }
     const ray& operator[](std::size_t i) const { return rays_[i]; }
 
-    /// Positive for points outwards of a ray: the sine of the angle between them times the point's distance.
+    /// Positive for points farther out than a ray: the sine of the angle between them times the point's distance.
     static double beyond(const ray& r, double x, double down) { return x * r.cosine - down * r.sine; }
 
-    /// The first ray through a point or outwards of it.
+    /// Index of the first ray that passes through a point or farther out.
     std::size_t first_over(double x, double down) const {
         const auto at =
             std::partition_point(rays_.begin(), rays_.end(), [&](const ray& r) { return beyond(r, x, down) > 0; });
