@@ -333,7 +333,7 @@ TEST_CASE("A vertex shader over lanes gets the normals of its vertices") {
 namespace {
 /// Displaces vertices along their normals, one vertex at a time or over lanes.
 struct displaced {
-    auto operator()(const in::vertex& v) const { return seen_from_above({v.position + v.normal, v.normal}); }
+    auto operator()(const in::vertex& v) const { return seen_from_above({v.position + v.normal, v.normal, v.index}); }
 };
 struct displaced_over_lanes : displaced {
     using displaced::operator();
