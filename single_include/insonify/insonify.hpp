@@ -3909,7 +3909,7 @@ enum class echo_draw { gamma, by_looks, rice };
 
 /// Statistics of an intensity: the three numbers of a speckle_law, by pixel.
 struct echo_statistics {
-    const char* name;      ///< of the filter's own parameter
+    const char* name;      ///< of the filter's parameter, for error messages
     parameter looks = 1;   ///< 0.01 to 1e6; 1 unless they are drawn as gamma
     parameter shape = 0;   ///< of the K-distribution's texture; 0: none
     parameter steady = 0;  ///< power of a steady echo over that of the others
@@ -3952,11 +3952,11 @@ class echo_law {
     }
 
   private:
-    /// Prepares fields under which the correlation of the intensities has the given length.
+    /// Chooses taps for the fields such that the autocorrelation of the intensities falls to 1 / e at the given length.
     void correlate(const correlation_length& length) {
         const parameter &looks = statistics_.looks, &shape = statistics_.shape, &steady = statistics_.steady;
         if (!looks.is_constant())
-            refuse_text("looks of correlated speckle", "a map", "one whole number for all pixels, 1 to 64");
+            refuse_text("number of looks of correlated speckle", "a map", "one whole number for all pixels, 1 to 64");
         const float whole = looks.value();
         require(whole >= 1 && whole <= 64 && whole == static_cast<float>(static_cast<int>(whole)),
                 "number of looks of correlated speckle", whole, "a whole number, 1 to 64, for all pixels");
@@ -7402,14 +7402,16 @@ inline namespace INSONIFY_ABI {
 struct sphere {
     float radius = 0.5f;  ///< metres
     glm::vec3 aspect{1};
-    int segments = 64;  ///< around z, 3 to 8192; half as many rings from pole to pole
+    /// Around z, 3 to 8192; half as many rings from pole to pole. Even for strongly stretched shapes: with odd ones
+    /// some normals point behind a face.
+    int segments = 64;
 };
 
 /// The upper half of a sphere on the plane z = 0, with a flat base: the visible part of a half-buried sphere.
 struct hemisphere {
     float radius = 0.5f;  ///< metres
     glm::vec3 aspect{1};
-    int segments = 64;  ///< around z, 3 to 8192; a quarter as many rings
+    int segments = 64;  ///< around z, 3 to 8192, even for strongly stretched shapes; a quarter as many rings
 };
 
 namespace detail::inline INSONIFY_FLAGS {
@@ -12112,7 +12114,7 @@ class tile_runs {
     }
 
     /// Calls `visit(tile, run)` for every run and each tile that it touches, in order.
-    /// @param all  contains the runs' tiles, which are counted in it row by row
+    /// @param all  rectangle that contains the tiles of all runs; `tile` is a row-major index into it
     template <class Visit>
     void for_each(const rect& all, const Visit& visit) const {
         for (const entry& e : entries_) {
@@ -12912,9 +12914,9 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/raster/detail/small_setup.hpp ----------------------------------------------------
 // Setup of small triangles, of which a fine mesh is made: N at a time, one per lane, in 32 bits.
 //
-// A triangle is small if (width | height) < 2^15 - 1 sub-pixels; both are then below 2^15 (8 pixels at 12 sub-pixel
-// bits), so edge functions are sums of two products of less than 2^30 each, and fit 32 bits. The integers are those of
-// setup.hpp, and so are all decisions.
+// A triangle is small if (width | height) < 2^15 - 1 sub-pixels; both are then below 2^15 (128 pixels at the default 8
+// sub-pixel bits), so edge functions are sums of two products of less than 2^30 each, and fit 32 bits. The integers are
+// those of setup.hpp, and so are all decisions.
 //
 // Exact depths are the planes of setup.hpp, in double with a bound of the error. Quick depths are in float. Either way
 // a pixel gets the same depth whichever tile evaluates it.
@@ -13118,9 +13120,9 @@ INSONIFY_ARITHMETIC_END
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Whether a class that is not an aggregate is a vector of floats: its `value_type` is float, and it neither refers to
-/// them, as spans and views do, whose `data()` of a constant is that of a variable, nor may lack one, as std::optional
-/// may. Specialize as true for others.
+/// Whether a class that is not an aggregate is a vector of floats: `value_type` is float, it stores its floats (a
+/// view's `data()` has the same type whether the view is const or not), and it cannot be empty (std::optional has `*`).
+/// Specialize as true for others.
 template <class V>
 inline constexpr bool is_vector_of_floats = requires(V& variable, const V& constant) {
     requires std::is_same_v<typename V::value_type, float>;
@@ -13614,8 +13616,8 @@ class screen_mesh {
   public:
     using real = Real;
 
-    /// @param has_weights  whether weights_at will be called, or inverse_w of exact vertices
-    /// @param records      one for each vertex, set here; or no_records
+    /// @param has_weights  whether pixels will be shaded: exact vertices then keep 1 / w, for weights_at()
+    /// @param records      varyings, one record per vertex, set here; or no_records
     template <vertex_shader Shader, class Record, depth_precision Depth, executor E>
     screen_mesh(const mesh_view& m, const Shader& shader, const pixel_grid& grid, const tile_grid& tiles,
                 const draw_options<Depth>& options, bool has_weights, Record* records, E& ex)
@@ -14383,7 +14385,7 @@ INSONIFY_ARITHMETIC_END
 //
 //     struct shade_surface {
 //         image<float>& picture;
-//         template <int N>  // 1 and more, as the instruction set has
+//         template <int N>  // 4 or 8 by instruction set, 1 without SIMD
 //         INSONIFY_INLINE void operator()(const fragment_lanes<N, surface>& f) const {
 //             typename fragment_lanes<N, surface>::floats height, brightness;
 //             f.interpolate(height, 0);
@@ -14835,10 +14837,9 @@ inline namespace INSONIFY_FLAGS {
 /// @param target   depth image; each side at most 2^(30 - subpixel_bits) pixels and 2^16 tiles (2^22 pixels by default)
 /// @param options  see draw_options; `draw_options<depth_precision::quick>` for depths in float
 /// @param ex       runs the stages; the result is the same bytes for any executor
-/// @returns the number of triangles by outcome, and of shaded pixels; zeros for an empty target, for which nothing is
-/// done
+/// @returns the number of triangles by outcome, and of shaded pixels; zeros for an empty target
 /// @throws invalid_input for an index without a position, a number of normals that is neither 0 nor that of positions,
-///         or options out of range; the target is then unchanged
+///         options out of range or a target too large; the target is then unchanged
 template <vertex_shader VertexShader, depth_precision Depth = depth_precision::exact,
           executor_argument E = serial_executor>
 draw_stats draw(const mesh_view& m, const VertexShader& shader, const depth_target& target,
@@ -16710,7 +16711,7 @@ class tile_casters {
 }  // namespace insonify
 
 // ------------ insonify/shadow/detail/tiled_plane.hpp ----------------------------------------------------
-// The planes that rays of the light cross, cut into tiles, and which casters touch each tile.
+// A light's planes (light_planes.hpp), cut into tiles, and the casters over each tile.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -16726,7 +16727,7 @@ insonify::detail::ground_rect extent_on(const light_plane& plane, const Corner& 
     return all;
 }
 
-/// One plane.
+/// One plane of a light: its tiles, and the casters projected onto it.
 struct tiled_plane {
     light_plane plane;
     plane_tiles tiles;
@@ -16821,6 +16822,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
+/// Points sorted by tile, in parallel runs of batches.
 class points_by_tile {
   public:
     /// Sorts points by tile and sets all results in `into` to lit, which is final where no caster touches the tile.
@@ -20520,7 +20522,8 @@ inline std::pair<glm::dvec3, glm::dvec3> across(const glm::dvec3& direction) {
     return {u, numeric::cross(along, u)};
 }
 
-/// The corners of a regular polygon, inscribed in the ellipse with semi-axes u and v; no corner lies on an axis.
+/// The corners of a regular polygon, inscribed in the ellipse with semi-axes u and v; an edge, not a corner, is centred
+/// on u.
 inline section circle(const glm::dvec3& centre, const glm::dvec3& u, const glm::dvec3& v, int corners) {
     section out;
     for (int i = 0; i < corners; ++i) {
@@ -20663,8 +20666,8 @@ inline namespace INSONIFY_ABI {
 /// Spitfire Mk V is 9.1 m and 11.2 m, a Douglas C-47 19.4 m and 29 m (Jane's All the World's Aircraft, 1945). Taper and
 /// tail sizes: D. P. Raymer. Aircraft Design: A Conceptual Approach, chapters 4 and 6.
 struct aeroplane {
-    float length = 14.4f;                             ///< of the fuselage with a nose engine's spinner, metres
-    float span = length * 20 / 14.4f;                 ///< metres, length / 4 to 4 length
+    float length = 14.4f;              ///< of the fuselage with a nose engine's spinner, metres
+    float span = length * 20 / 14.4f;  ///< metres, length / 4 to 4 length, at least 1.2 fuselage_diameter
     float fuselage_diameter = length * 1.7f / 14.4f;  ///< mean of height and width, metres, length / 40 to length / 4
     float root_chord = length * 3.7f / 14.4f;         ///< metres, length / 20 to length / 2
     float tip_chord = root_chord * 1.5f / 3.7f;       ///< metres, length / 100 to root_chord
@@ -21079,7 +21082,7 @@ inline namespace INSONIFY_FLAGS {
 /// sheet 0.9, steel 1. Each part is solid, and so is the merged mesh.
 ///
 /// A whole aeroplane spans exactly `span` unless its propellers or tail reach beyond the wing, and is exactly `length`
-/// long unless wing engines reach ahead of its nose or swept tips behind its tail.
+/// long unless wings or wing engines reach ahead of its nose or behind its tail.
 /// @throws invalid_input as `validate` does
 inline compound to_compound(const aeroplane& a) {
     validate(a);
@@ -21419,7 +21422,7 @@ struct hull {
     float bulwark = depth / 4;        ///< height above the deck, metres, at most half the depth
     float sheer = 1.5f;               ///< times the standard sheer, 0 to 4
     stern_type stern = stern_type::cruiser;
-    /// Thickness in which plating is drawn, metres; from 1/2000 of the length to 1/16 of the beam. Real plates
+    /// Modelled thickness of the plating, metres; from 1/2000 of the length to 1/16 of the beam. Real plates
     /// measure 10 mm, which neither a sonar nor a grid of pixels resolves.
     float plating = length / 375;
 
@@ -21427,7 +21430,7 @@ struct hull {
     float house_position = -0.3f;  ///< of its middle from midships, share of the length: -0.35 (aft) to 0.3
     int house_tiers = 2;           ///< 1 to 4, each 2.4 m high, at most half the depth and 0.08 length
     bool has_funnel = true;
-    int hatches = 2;                 ///< open, 0 to 8
+    int hatches = 2;                 ///< open, 0 to 8; fewer where the deck has no room
     int masts = 2;                   ///< 0 to 4, with two derricks each
     float mast_height = length / 5;  ///< above the deck, metres, length / 1000 to length
 
@@ -21516,7 +21519,7 @@ class hull_lines {
     }
     double deck_w(double u) const { return deck_height(u) / top(u); }
 
-    /// Half the breadth outside the plating.
+    /// Half the breadth, to the outside of the plating.
     double half_breadth(double u, double w) const {
         const auto taper = [](double t, double power) { return t > 0 ? 1 - numeric::pow(t, power) : 1.0; };
         const double r = is_transom_ ? 0.35 : 0.2, aft = (r - u) / r;
@@ -21644,10 +21647,10 @@ inline void append_frame(mesh& into, const hull_lines& lines, double u, double s
     append_loft(into, sections);
 }
 
-/// Part of a deck: between two stations, and between two shares of the half breadth, port positive.
+/// Part of a deck: between two stations, and between two fractions of the half breadth, port positive.
 struct deck_plate {
     double from, to, starboard = -1, port = 1;
-    bool is_split_off = false;  ///< lies a plate's thickness lower, so that it shares no edge with those beside it
+    bool is_split_off = false;  ///< lies 0.3 plating lower, so that it shares no edge with adjacent plates
 };
 
 inline void append_deck(mesh& into, const hull_lines& lines, const deck_plate& plate, int segments) {
@@ -22402,7 +22405,8 @@ inline void validate(const tyre& t) {
                           "0.001 to 0.95 diameters");
     detail::require(t.wall >= 1e-4f * (std::max)(t.diameter, t.width) && t.wall <= 0.45f * t.width &&
                         t.wall <= 0.45f * (t.diameter - t.rim_diameter),
-                    "tyre.wall", t.wall, "at least 1/10000 of the size, at most 0.45 of width and of the ring");
+                    "tyre.wall", t.wall,
+                    "at least 1/10000 of the size, at most 0.45 of width and of diameter - rim_diameter");
     detail::require(t.fill == 0 || (t.fill >= 0.001f && t.fill <= 1), "tyre.fill", t.fill, "0, or 0.001 to 1");
     detail::require_segments("tyre.segments", t.segments, 6, 8192);
 }
@@ -22518,7 +22522,7 @@ inline void validate(const wedge& w) {
             "1/10000 to half of the length");
     require(w.side_slope >= 0 && w.side_slope * w.height <= 0.45f * w.width &&
                 w.side_slope * w.nose_height <= 0.45f * w.nose_width,
-            "wedge.side_slope", w.side_slope, "0, or so that the top keeps a tenth of width and nose_width");
+            "wedge.side_slope", w.side_slope, "0 or more, leaving at least a tenth of width and nose_width at the top");
 }
 
 /// 28 triangles, flat.
@@ -25865,8 +25869,7 @@ class ping_fan {
             shape.above_highest > 0 ? (std::min)(tangent_at(range, shape.above_highest), flattest) : flattest;
         const std::int64_t first = numeric::floor_to_int(tangent_at(first_range, low) / spacing);
         const std::int64_t last = numeric::floor_to_int(end / spacing) + 1;
-        require(last - first < (1 << 25), "rays of a ping", last - first,
-                "below 2^25: take wider bins or larger cells");
+        require(last - first < (1 << 25), "rays of a ping", last - first, "below 2^25; use wider bins or larger cells");
         rays_.reserve(static_cast<std::size_t>(last - first));
         for (std::int64_t i = first; i < last; ++i) {
             const double tangent = (static_cast<double>(i) + 0.5) * spacing;
@@ -25879,7 +25882,7 @@ class ping_fan {
         const double angle = step / range;
         wall_from_ = from, wall_angle_ = angle;
         require((up_to - from) / angle < 0x1p25, "rays of a ping above the ground", (up_to - from) / angle,
-                "below 2^25: take wider bins or larger cells");
+                "below 2^25; use wider bins or larger cells");
         for (std::int64_t i = 0; from + angle * static_cast<double>(i) < up_to; ++i) {
             const auto [sine, cosine] = numeric::sin_cos(from + angle * (static_cast<double>(i) + 0.5));
             rays_.push_back({sine, cosine, angle});
@@ -27456,8 +27459,8 @@ INSONIFY_ARITHMETIC_END
 // Spatial variation of the seabed's backscatter: drift, streaks, and patches of another sediment.
 //
 // Even one kind of bottom is not uniformly gray: grain size, shell and cover change over metres to hundreds of metres
-// (T. K. Stanton. Sonar Estimates of Seafloor Microroughness. JASA 75, 1984; J. A. Goff and others. Correlation of
-// sidescan backscatter with grain size distribution of surficial seabed sediments. Marine Geology 205, 2004), and
+// (T. K. Stanton. Sonar Estimates of Seafloor Microroughness. JASA 75, 1984; J. S. Collier, C. J. Brown. Correlation
+// of sidescan backscatter with grain size distribution of surficial seabed sediments. Marine Geology 214, 2005), and
 // currents sort it into streaks along the flow. Levels are a function of (seed, position), so a bottom that is seen
 // twice, from either side, has the same tone.
 

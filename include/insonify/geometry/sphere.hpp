@@ -20,14 +20,16 @@ inline namespace INSONIFY_ABI {
 struct sphere {
     float radius = 0.5f;  ///< metres
     glm::vec3 aspect{1};
-    int segments = 64;  ///< around z, 3 to 8192; half as many rings from pole to pole
+    /// Around z, 3 to 8192; half as many rings from pole to pole. Even for strongly stretched shapes: with odd ones
+    /// some normals point behind a face.
+    int segments = 64;
 };
 
 /// The upper half of a sphere on the plane z = 0, with a flat base: the visible part of a half-buried sphere.
 struct hemisphere {
     float radius = 0.5f;  ///< metres
     glm::vec3 aspect{1};
-    int segments = 64;  ///< around z, 3 to 8192; a quarter as many rings
+    int segments = 64;  ///< around z, 3 to 8192, even for strongly stretched shapes; a quarter as many rings
 };
 
 namespace detail::inline INSONIFY_FLAGS {

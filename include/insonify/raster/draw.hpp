@@ -78,10 +78,9 @@ inline namespace INSONIFY_FLAGS {
 /// @param target   depth image; each side at most 2^(30 - subpixel_bits) pixels and 2^16 tiles (2^22 pixels by default)
 /// @param options  see draw_options; `draw_options<depth_precision::quick>` for depths in float
 /// @param ex       runs the stages; the result is the same bytes for any executor
-/// @returns the number of triangles by outcome, and of shaded pixels; zeros for an empty target, for which nothing is
-/// done
+/// @returns the number of triangles by outcome, and of shaded pixels; zeros for an empty target
 /// @throws invalid_input for an index without a position, a number of normals that is neither 0 nor that of positions,
-///         or options out of range; the target is then unchanged
+///         options out of range or a target too large; the target is then unchanged
 template <vertex_shader VertexShader, depth_precision Depth = depth_precision::exact,
           executor_argument E = serial_executor>
 draw_stats draw(const mesh_view& m, const VertexShader& shader, const depth_target& target,

@@ -4,7 +4,7 @@
 //
 //     struct shade_surface {
 //         image<float>& picture;
-//         template <int N>  // 1 and more, as the instruction set has
+//         template <int N>  // 4 or 8 by instruction set, 1 without SIMD
 //         INSONIFY_INLINE void operator()(const fragment_lanes<N, surface>& f) const {
 //             typename fragment_lanes<N, surface>::floats height, brightness;
 //             f.interpolate(height, 0);

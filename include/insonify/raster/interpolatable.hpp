@@ -14,9 +14,9 @@
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Whether a class that is not an aggregate is a vector of floats: its `value_type` is float, and it neither refers to
-/// them, as spans and views do, whose `data()` of a constant is that of a variable, nor may lack one, as std::optional
-/// may. Specialize as true for others.
+/// Whether a class that is not an aggregate is a vector of floats: `value_type` is float, it stores its floats (a
+/// view's `data()` has the same type whether the view is const or not), and it cannot be empty (std::optional has `*`).
+/// Specialize as true for others.
 template <class V>
 inline constexpr bool is_vector_of_floats = requires(V& variable, const V& constant) {
     requires std::is_same_v<typename V::value_type, float>;

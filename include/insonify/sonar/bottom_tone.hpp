@@ -1,8 +1,8 @@
 // Spatial variation of the seabed's backscatter: drift, streaks, and patches of another sediment.
 //
 // Even one kind of bottom is not uniformly gray: grain size, shell and cover change over metres to hundreds of metres
-// (T. K. Stanton. Sonar Estimates of Seafloor Microroughness. JASA 75, 1984; J. A. Goff and others. Correlation of
-// sidescan backscatter with grain size distribution of surficial seabed sediments. Marine Geology 205, 2004), and
+// (T. K. Stanton. Sonar Estimates of Seafloor Microroughness. JASA 75, 1984; J. S. Collier, C. J. Brown. Correlation
+// of sidescan backscatter with grain size distribution of surficial seabed sediments. Marine Geology 214, 2005), and
 // currents sort it into streaks along the flow. Levels are a function of (seed, position), so a bottom that is seen
 // twice, from either side, has the same tone.
 #pragma once

@@ -56,7 +56,7 @@ enum class echo_draw { gamma, by_looks, rice };
 
 /// Statistics of an intensity: the three numbers of a speckle_law, by pixel.
 struct echo_statistics {
-    const char* name;      ///< of the filter's own parameter
+    const char* name;      ///< of the filter's parameter, for error messages
     parameter looks = 1;   ///< 0.01 to 1e6; 1 unless they are drawn as gamma
     parameter shape = 0;   ///< of the K-distribution's texture; 0: none
     parameter steady = 0;  ///< power of a steady echo over that of the others
@@ -99,11 +99,11 @@ class echo_law {
     }
 
   private:
-    /// Prepares fields under which the correlation of the intensities has the given length.
+    /// Chooses taps for the fields such that the autocorrelation of the intensities falls to 1 / e at the given length.
     void correlate(const correlation_length& length) {
         const parameter &looks = statistics_.looks, &shape = statistics_.shape, &steady = statistics_.steady;
         if (!looks.is_constant())
-            refuse_text("looks of correlated speckle", "a map", "one whole number for all pixels, 1 to 64");
+            refuse_text("number of looks of correlated speckle", "a map", "one whole number for all pixels, 1 to 64");
         const float whole = looks.value();
         require(whole >= 1 && whole <= 64 && whole == static_cast<float>(static_cast<int>(whole)),
                 "number of looks of correlated speckle", whole, "a whole number, 1 to 64, for all pixels");

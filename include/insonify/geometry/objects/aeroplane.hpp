@@ -197,7 +197,7 @@ inline namespace INSONIFY_FLAGS {
 /// sheet 0.9, steel 1. Each part is solid, and so is the merged mesh.
 ///
 /// A whole aeroplane spans exactly `span` unless its propellers or tail reach beyond the wing, and is exactly `length`
-/// long unless wing engines reach ahead of its nose or swept tips behind its tail.
+/// long unless wings or wing engines reach ahead of its nose or behind its tail.
 /// @throws invalid_input as `validate` does
 inline compound to_compound(const aeroplane& a) {
     validate(a);

@@ -19,8 +19,8 @@ inline namespace INSONIFY_ABI {
 /// Spitfire Mk V is 9.1 m and 11.2 m, a Douglas C-47 19.4 m and 29 m (Jane's All the World's Aircraft, 1945). Taper and
 /// tail sizes: D. P. Raymer. Aircraft Design: A Conceptual Approach, chapters 4 and 6.
 struct aeroplane {
-    float length = 14.4f;                             ///< of the fuselage with a nose engine's spinner, metres
-    float span = length * 20 / 14.4f;                 ///< metres, length / 4 to 4 length
+    float length = 14.4f;              ///< of the fuselage with a nose engine's spinner, metres
+    float span = length * 20 / 14.4f;  ///< metres, length / 4 to 4 length, at least 1.2 fuselage_diameter
     float fuselage_diameter = length * 1.7f / 14.4f;  ///< mean of height and width, metres, length / 40 to length / 4
     float root_chord = length * 3.7f / 14.4f;         ///< metres, length / 20 to length / 2
     float tip_chord = root_chord * 1.5f / 3.7f;       ///< metres, length / 100 to root_chord

@@ -28,7 +28,7 @@ struct hull {
     float bulwark = depth / 4;        ///< height above the deck, metres, at most half the depth
     float sheer = 1.5f;               ///< times the standard sheer, 0 to 4
     stern_type stern = stern_type::cruiser;
-    /// Thickness in which plating is drawn, metres; from 1/2000 of the length to 1/16 of the beam. Real plates
+    /// Modelled thickness of the plating, metres; from 1/2000 of the length to 1/16 of the beam. Real plates
     /// measure 10 mm, which neither a sonar nor a grid of pixels resolves.
     float plating = length / 375;
 
@@ -36,7 +36,7 @@ struct hull {
     float house_position = -0.3f;  ///< of its middle from midships, share of the length: -0.35 (aft) to 0.3
     int house_tiers = 2;           ///< 1 to 4, each 2.4 m high, at most half the depth and 0.08 length
     bool has_funnel = true;
-    int hatches = 2;                 ///< open, 0 to 8
+    int hatches = 2;                 ///< open, 0 to 8; fewer where the deck has no room
     int masts = 2;                   ///< 0 to 4, with two derricks each
     float mast_height = length / 5;  ///< above the deck, metres, length / 1000 to length
 

@@ -36,7 +36,8 @@ inline void validate(const tyre& t) {
                           "0.001 to 0.95 diameters");
     detail::require(t.wall >= 1e-4f * (std::max)(t.diameter, t.width) && t.wall <= 0.45f * t.width &&
                         t.wall <= 0.45f * (t.diameter - t.rim_diameter),
-                    "tyre.wall", t.wall, "at least 1/10000 of the size, at most 0.45 of width and of the ring");
+                    "tyre.wall", t.wall,
+                    "at least 1/10000 of the size, at most 0.45 of width and of diameter - rim_diameter");
     detail::require(t.fill == 0 || (t.fill >= 0.001f && t.fill <= 1), "tyre.fill", t.fill, "0, or 0.001 to 1");
     detail::require_segments("tyre.segments", t.segments, 6, 8192);
 }

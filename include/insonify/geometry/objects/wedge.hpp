@@ -67,7 +67,7 @@ inline void validate(const wedge& w) {
             "1/10000 to half of the length");
     require(w.side_slope >= 0 && w.side_slope * w.height <= 0.45f * w.width &&
                 w.side_slope * w.nose_height <= 0.45f * w.nose_width,
-            "wedge.side_slope", w.side_slope, "0, or so that the top keeps a tenth of width and nose_width");
+            "wedge.side_slope", w.side_slope, "0 or more, leaving at least a tenth of width and nose_width at the top");
 }
 
 /// 28 triangles, flat.

@@ -41,8 +41,8 @@ class screen_mesh {
   public:
     using real = Real;
 
-    /// @param has_weights  whether weights_at will be called, or inverse_w of exact vertices
-    /// @param records      one for each vertex, set here; or no_records
+    /// @param has_weights  whether pixels will be shaded: exact vertices then keep 1 / w, for weights_at()
+    /// @param records      varyings, one record per vertex, set here; or no_records
     template <vertex_shader Shader, class Record, depth_precision Depth, executor E>
     screen_mesh(const mesh_view& m, const Shader& shader, const pixel_grid& grid, const tile_grid& tiles,
                 const draw_options<Depth>& options, bool has_weights, Record* records, E& ex)

@@ -157,7 +157,7 @@ class tile_runs {
     }
 
     /// Calls `visit(tile, run)` for every run and each tile that it touches, in order.
-    /// @param all  contains the runs' tiles, which are counted in it row by row
+    /// @param all  rectangle that contains the tiles of all runs; `tile` is a row-major index into it
     template <class Visit>
     void for_each(const rect& all, const Visit& visit) const {
         for (const entry& e : entries_) {

@@ -1,8 +1,8 @@
 // Setup of small triangles, of which a fine mesh is made: N at a time, one per lane, in 32 bits.
 //
-// A triangle is small if (width | height) < 2^15 - 1 sub-pixels; both are then below 2^15 (8 pixels at 12 sub-pixel
-// bits), so edge functions are sums of two products of less than 2^30 each, and fit 32 bits. The integers are those of
-// setup.hpp, and so are all decisions.
+// A triangle is small if (width | height) < 2^15 - 1 sub-pixels; both are then below 2^15 (128 pixels at the default 8
+// sub-pixel bits), so edge functions are sums of two products of less than 2^30 each, and fit 32 bits. The integers are
+// those of setup.hpp, and so are all decisions.
 //
 // Exact depths are the planes of setup.hpp, in double with a bound of the error. Quick depths are in float. Either way
 // a pixel gets the same depth whichever tile evaluates it.

@@ -17,6 +17,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
+/// Points sorted by tile, in parallel runs of batches.
 class points_by_tile {
   public:
     /// Sorts points by tile and sets all results in `into` to lit, which is final where no caster touches the tile.

@@ -1,4 +1,4 @@
-// The planes that rays of the light cross, cut into tiles, and which casters touch each tile.
+// A light's planes (light_planes.hpp), cut into tiles, and the casters over each tile.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
@@ -27,7 +27,7 @@ insonify::detail::ground_rect extent_on(const light_plane& plane, const Corner& 
     return all;
 }
 
-/// One plane.
+/// One plane of a light: its tiles, and the casters projected onto it.
 struct tiled_plane {
     light_plane plane;
     plane_tiles tiles;

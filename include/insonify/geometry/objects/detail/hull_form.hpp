@@ -46,7 +46,7 @@ class hull_lines {
     }
     double deck_w(double u) const { return deck_height(u) / top(u); }
 
-    /// Half the breadth outside the plating.
+    /// Half the breadth, to the outside of the plating.
     double half_breadth(double u, double w) const {
         const auto taper = [](double t, double power) { return t > 0 ? 1 - numeric::pow(t, power) : 1.0; };
         const double r = is_transom_ ? 0.35 : 0.2, aft = (r - u) / r;

@@ -71,10 +71,10 @@ inline void append_frame(mesh& into, const hull_lines& lines, double u, double s
     append_loft(into, sections);
 }
 
-/// Part of a deck: between two stations, and between two shares of the half breadth, port positive.
+/// Part of a deck: between two stations, and between two fractions of the half breadth, port positive.
 struct deck_plate {
     double from, to, starboard = -1, port = 1;
-    bool is_split_off = false;  ///< lies a plate's thickness lower, so that it shares no edge with those beside it
+    bool is_split_off = false;  ///< lies 0.3 plating lower, so that it shares no edge with adjacent plates
 };
 
 inline void append_deck(mesh& into, const hull_lines& lines, const deck_plate& plate, int segments) {

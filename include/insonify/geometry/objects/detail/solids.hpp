@@ -97,7 +97,8 @@ inline std::pair<glm::dvec3, glm::dvec3> across(const glm::dvec3& direction) {
     return {u, numeric::cross(along, u)};
 }
 
-/// The corners of a regular polygon, inscribed in the ellipse with semi-axes u and v; no corner lies on an axis.
+/// The corners of a regular polygon, inscribed in the ellipse with semi-axes u and v; an edge, not a corner, is centred
+/// on u.
 inline section circle(const glm::dvec3& centre, const glm::dvec3& u, const glm::dvec3& v, int corners) {
     section out;
     for (int i = 0; i < corners; ++i) {

@@ -64,8 +64,7 @@ class ping_fan {
             shape.above_highest > 0 ? (std::min)(tangent_at(range, shape.above_highest), flattest) : flattest;
         const std::int64_t first = numeric::floor_to_int(tangent_at(first_range, low) / spacing);
         const std::int64_t last = numeric::floor_to_int(end / spacing) + 1;
-        require(last - first < (1 << 25), "rays of a ping", last - first,
-                "below 2^25: take wider bins or larger cells");
+        require(last - first < (1 << 25), "rays of a ping", last - first, "below 2^25; use wider bins or larger cells");
         rays_.reserve(static_cast<std::size_t>(last - first));
         for (std::int64_t i = first; i < last; ++i) {
             const double tangent = (static_cast<double>(i) + 0.5) * spacing;
@@ -78,7 +77,7 @@ class ping_fan {
         const double angle = step / range;
         wall_from_ = from, wall_angle_ = angle;
         require((up_to - from) / angle < 0x1p25, "rays of a ping above the ground", (up_to - from) / angle,
-                "below 2^25: take wider bins or larger cells");
+                "below 2^25; use wider bins or larger cells");
         for (std::int64_t i = 0; from + angle * static_cast<double>(i) < up_to; ++i) {
             const auto [sine, cosine] = numeric::sin_cos(from + angle * (static_cast<double>(i) + 0.5));
             rays_.push_back({sine, cosine, angle});
