@@ -7417,21 +7417,26 @@ struct hemisphere {
 namespace detail::inline INSONIFY_FLAGS {
 
 template <class Round>
+void require_semi_axes(const Round& shape, const char* radius, const char* aspect) {
+    require_positive(radius, shape.radius);
+    for (int i = 0; i < 3; ++i) {
+        const float semi_axis = shape.radius * shape.aspect[i];
+        require(shape.aspect[i] > 0 && semi_axis > 0 && numeric::is_finite(semi_axis), aspect, shape.aspect[i],
+                "above 0, and the radius times it above 0 and finite");
+    }
+}
+template <class Round>
 float longest_semi_axis(const Round& shape) {
     return shape.radius * (std::max)((std::max)(shape.aspect.x, shape.aspect.y), shape.aspect.z);
 }
 
 #if INSONIFY_BODIES
 /// Turns a profile about z and stretches the result with its normals.
-inline mesh stretched_round(const dynamic_array<profile_point>& profile, const char* name, const glm::vec3& aspect,
-                            int segments) {
+inline mesh stretched_round(const dynamic_array<profile_point>& profile, const glm::vec3& aspect, int segments) {
     mesh out = revolve(profile, segments);
     if (aspect == glm::vec3(1)) return out;
     affine stretch;
-    for (int i = 0; i < 3; ++i) {
-        require_positive(name, aspect[i]);
-        stretch.linear[i][i] = static_cast<double>(aspect[i]);
-    }
+    for (int i = 0; i < 3; ++i) stretch.linear[i][i] = static_cast<double>(aspect[i]);
     return transformed(std::move(out), stretch);
 }
 #endif
@@ -7449,20 +7454,20 @@ INSONIFY_FUNCTION mesh to_mesh(const hemisphere& shape);
 
 #if INSONIFY_BODIES
 INSONIFY_FUNCTION mesh to_mesh(const sphere& shape) {
-    detail::require_positive("sphere.radius", shape.radius);
+    detail::require_semi_axes(shape, "sphere.radius", "sphere.aspect");
     detail::require_range("sphere.segments", shape.segments, 3, 8192, "3 to 8192");
     detail::dynamic_array<profile_point> profile;
     detail::append_arc(profile, static_cast<double>(shape.radius), 0.0, 0.0, 0.5, (shape.segments + 1) / 2);
-    return detail::stretched_round(profile, "sphere.aspect", shape.aspect, shape.segments);
+    return detail::stretched_round(profile, shape.aspect, shape.segments);
 }
 
 INSONIFY_FUNCTION mesh to_mesh(const hemisphere& shape) {
-    detail::require_positive("hemisphere.radius", shape.radius);
+    detail::require_semi_axes(shape, "hemisphere.radius", "hemisphere.aspect");
     detail::require_range("hemisphere.segments", shape.segments, 3, 8192, "3 to 8192");
     const auto radius = static_cast<double>(shape.radius);
     detail::dynamic_array<profile_point> profile = {{0, 0, 0, -1}, {radius, 0, 0, -1}};
     detail::append_arc(profile, radius, 0.0, 0.25, 0.5, (shape.segments + 3) / 4);
-    return detail::stretched_round(profile, "hemisphere.aspect", shape.aspect, shape.segments);
+    return detail::stretched_round(profile, shape.aspect, shape.segments);
 }
 #endif
 
@@ -7474,11 +7479,13 @@ inline namespace INSONIFY_FLAGS {
 /// shape's own `segments`. A stretched one counts as a ball of its longest semi-axis.
 /// @throws invalid_input as `segments_for(radius, chord_error)`, and for shapes that would need more than 8192
 inline int segments_for(const sphere& shape, float deviation) {
+    detail::require_semi_axes(shape, "sphere.radius", "sphere.aspect");
     return detail::round_segments_for(detail::longest_semi_axis(shape), deviation,
                                       [](int segments) { return (segments + 1) / 2; });
 }
 /// The same for a hemisphere.
 inline int segments_for(const hemisphere& shape, float deviation) {
+    detail::require_semi_axes(shape, "hemisphere.radius", "hemisphere.aspect");
     return detail::round_segments_for(detail::longest_semi_axis(shape), deviation,
                                       [](int segments) { return 2 * ((segments + 3) / 4); });
 }
@@ -21253,7 +21260,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// A hollow crate of boards on corner posts, standing on z = 0. Long sides along x.
+/// A hollow crate of boards on corner posts, standing on z = 0 while a side board is left. Long sides along x.
 ///
 /// The default footprint is the pallet of 1.2 m by 0.8 m (ISO 6780, EN 13698-1) that transport cases are sized for.
 struct crate {

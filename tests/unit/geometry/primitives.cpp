@@ -236,6 +236,11 @@ TEST_CASE("A primitive refuses sizes and segments out of range") {
     CHECK_THROWS_AS(to_mesh(in::cone{.height = bad}), in::invalid_input);
     CHECK_THROWS_AS(to_mesh(in::sphere{.radius = bad}), in::invalid_input);
     CHECK_THROWS_AS(to_mesh(in::sphere{.aspect = {1, 1, bad}}), in::invalid_input);
+    CHECK_THROWS_WITH(to_mesh(in::sphere{.radius = 1e30f, .aspect = {1e30f, 1, 1}}),
+                      ContainsSubstring("sphere.aspect"));
+    CHECK_THROWS_WITH(in::segments_for(in::sphere{.aspect = {1, -50, 1}}, 0.01f),
+                      ContainsSubstring("sphere.aspect is"));
+    CHECK_THROWS_WITH(to_mesh(in::cube{{1e-45f, 1, 1}}), ContainsSubstring("cube.size is 0"));
     CHECK_THROWS_AS(to_mesh(in::hemisphere{.radius = bad}), in::invalid_input);
     CHECK_THROWS_AS(to_mesh(in::capsule{.radius = bad}), in::invalid_input);
     CHECK_THROWS_AS(to_mesh(in::cone{.top_radius = -1}), in::invalid_input);

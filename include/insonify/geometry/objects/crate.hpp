@@ -12,7 +12,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// A hollow crate of boards on corner posts, standing on z = 0. Long sides along x.
+/// A hollow crate of boards on corner posts, standing on z = 0 while a side board is left. Long sides along x.
 ///
 /// The default footprint is the pallet of 1.2 m by 0.8 m (ISO 6780, EN 13698-1) that transport cases are sized for.
 struct crate {
