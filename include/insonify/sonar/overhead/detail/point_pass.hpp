@@ -187,8 +187,8 @@ struct point_kernel {
     /// parallel to the light up to that error are dark.
     static constexpr double min_facing_sine = 0x1p-22;
 
-    /// Points keep this barycentric distance from the edges of their triangle: a point on an edge would lie in the
-    /// adjacent triangle, too, which then would not block it.
+    /// Points keep this barycentric distance from the edges of their triangle, unless it is seen edge-on: a point on an
+    /// edge would lie in the adjacent triangle, too, which then would not block it.
     static constexpr double border = 0x1p-20;
 
     /// Sub-pixel snapping may draw a pixel slightly outside its triangle, where weights are negative; a triangle seen
