@@ -456,6 +456,7 @@ inline bool parse_number(std::string_view text, double& value) {
     if (text.substr(0, 1) == "+" && text.substr(1, 1) != "-") text.remove_prefix(1);
 #if defined(__cpp_lib_to_chars)
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+    // Some from_chars read nan(...), with any text in the parentheses.
     if (status == std::errc::invalid_argument || end != text.data() + text.size() || text.back() == ')') return false;
     if (status == std::errc::result_out_of_range) {
         // The status does not tell which end of the range was left; the decimal exponent of the first digit that is
@@ -9891,8 +9892,8 @@ class trawl_furrows {
         if (band_gain == 0) return;
         for (std::size_t n = 0; n < families_.size(); ++n) {
             const family& f = families_[n];
-            if (N * part.spacing * f.per_strip <
-                0x1p30)  // strips are counted from the group's first sample, in 32 bits
+            // Strips are counted from a group's first sample, in 32 bits.
+            if (N * part.spacing * f.per_strip < 0x1p30)
                 for (std::size_t i = 0; i < part.whole(); i += N) add_family<N>(f, n, band_gain, part, i, values + i);
             else
                 for (std::size_t i = 0; i < part.count; ++i) add_family<1>(f, n, band_gain, part, i, values + i);
@@ -12741,7 +12742,10 @@ class projection {
         clip_polygon kept;
         kept.was_cut = whole.was_cut;
         const auto keep = [&](const clip_corner& corner) {
-            if (kept.count < 3 + clip_polygon::planes) kept.corners[static_cast<std::size_t>(kept.count++)] = corner;
+            const auto count = static_cast<std::size_t>(kept.count);
+            if (count == kept.corners.size()) return;
+            kept.corners[count] = corner;
+            ++kept.count;
         };
         for (int i = 0; i < whole.count; ++i) {
             const clip_corner& here = whole.corners[static_cast<std::size_t>(i)];
@@ -13257,12 +13261,12 @@ struct no_varyings {};
 
 namespace detail::inline INSONIFY_FLAGS {
 
-template <class Placed>
-INSONIFY_INLINE glm::vec4 position_of(const Placed& placed) {
-    if constexpr (requires { placed.clip; })
-        return placed.clip;
+template <class Output>
+INSONIFY_INLINE glm::vec4 position_of(const Output& output) {
+    if constexpr (requires { output.clip; })
+        return output.clip;
     else
-        return placed;
+        return output;
 }
 
 template <vertex_shader S>
@@ -13478,9 +13482,9 @@ struct vertex_kernel {
         float values[4][static_cast<unsigned>(N)];
         for (std::size_t k = 0; k < std::size_t{N}; ++k) {
             const std::size_t i = start + (k < count ? k : 0);
-            const auto placed = shader(mesh_vertex(m, static_cast<std::uint32_t>(i)));
-            if constexpr (recorded) records[i].set(placed.varyings);
-            const glm::vec4 position = position_of(placed);
+            const auto output = shader(mesh_vertex(m, static_cast<std::uint32_t>(i)));
+            if constexpr (recorded) records[i].set(output.varyings);
+            const glm::vec4 position = position_of(output);
             for (int axis = 0; axis < 4; ++axis) values[axis][k] = position[axis];
         }
         for (int axis = 0; axis < 4; ++axis) load(clip[axis], values[axis]);
@@ -17047,8 +17051,8 @@ class exact_occlusion {
         return reach;
     }
     /// Whether a caster is a grid lit from above its own plane: then horizon bounds replace its list of triangles.
-    /// Checked for each sample of a wide light, since some may lie below that plane. Bounds of a long strip lit
-    /// obliquely would take too much memory, columns x (rows + slope columns).
+    /// Checked for each sample of a wide light, since some may lie below that plane. Bounds take memory for columns x
+    /// (rows + slope columns): strips for which that is more than five times the vertices are left to the list.
     static bool has_horizon(const caster& c, const light_frame& frame) {
         if (c.grid == nullptr || c.may_skip != skip::facing_self) return false;
         const glm::dvec3 travel = transform_direction(inverse(c.placement), -frame.to_light());

@@ -67,12 +67,12 @@ struct no_varyings {};
 
 namespace detail::inline INSONIFY_FLAGS {
 
-template <class Placed>
-INSONIFY_INLINE glm::vec4 position_of(const Placed& placed) {
-    if constexpr (requires { placed.clip; })
-        return placed.clip;
+template <class Output>
+INSONIFY_INLINE glm::vec4 position_of(const Output& output) {
+    if constexpr (requires { output.clip; })
+        return output.clip;
     else
-        return placed;
+        return output;
 }
 
 template <vertex_shader S>

@@ -131,8 +131,8 @@ class exact_occlusion {
         return reach;
     }
     /// Whether a caster is a grid lit from above its own plane: then horizon bounds replace its list of triangles.
-    /// Checked for each sample of a wide light, since some may lie below that plane. Bounds of a long strip lit
-    /// obliquely would take too much memory, columns x (rows + slope columns).
+    /// Checked for each sample of a wide light, since some may lie below that plane. Bounds take memory for columns x
+    /// (rows + slope columns): strips for which that is more than five times the vertices are left to the list.
     static bool has_horizon(const caster& c, const light_frame& frame) {
         if (c.grid == nullptr || c.may_skip != skip::facing_self) return false;
         const glm::dvec3 travel = transform_direction(inverse(c.placement), -frame.to_light());

@@ -50,6 +50,7 @@ inline bool parse_number(std::string_view text, double& value) {
     if (text.substr(0, 1) == "+" && text.substr(1, 1) != "-") text.remove_prefix(1);
 #if defined(__cpp_lib_to_chars)
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+    // Some from_chars read nan(...), with any text in the parentheses.
     if (status == std::errc::invalid_argument || end != text.data() + text.size() || text.back() == ')') return false;
     if (status == std::errc::result_out_of_range) {
         // The status does not tell which end of the range was left; the decimal exponent of the first digit that is

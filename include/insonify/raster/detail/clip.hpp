@@ -157,7 +157,10 @@ class projection {
         clip_polygon kept;
         kept.was_cut = whole.was_cut;
         const auto keep = [&](const clip_corner& corner) {
-            if (kept.count < 3 + clip_polygon::planes) kept.corners[static_cast<std::size_t>(kept.count++)] = corner;
+            const auto count = static_cast<std::size_t>(kept.count);
+            if (count == kept.corners.size()) return;
+            kept.corners[count] = corner;
+            ++kept.count;
         };
         for (int i = 0; i < whole.count; ++i) {
             const clip_corner& here = whole.corners[static_cast<std::size_t>(i)];

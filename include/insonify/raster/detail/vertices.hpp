@@ -144,9 +144,9 @@ struct vertex_kernel {
         float values[4][static_cast<unsigned>(N)];
         for (std::size_t k = 0; k < std::size_t{N}; ++k) {
             const std::size_t i = start + (k < count ? k : 0);
-            const auto placed = shader(mesh_vertex(m, static_cast<std::uint32_t>(i)));
-            if constexpr (recorded) records[i].set(placed.varyings);
-            const glm::vec4 position = position_of(placed);
+            const auto output = shader(mesh_vertex(m, static_cast<std::uint32_t>(i)));
+            if constexpr (recorded) records[i].set(output.varyings);
+            const glm::vec4 position = position_of(output);
             for (int axis = 0; axis < 4; ++axis) values[axis][k] = position[axis];
         }
         for (int axis = 0; axis < 4; ++axis) load(clip[axis], values[axis]);

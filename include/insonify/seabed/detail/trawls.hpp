@@ -62,8 +62,8 @@ class trawl_furrows {
         if (band_gain == 0) return;
         for (std::size_t n = 0; n < families_.size(); ++n) {
             const family& f = families_[n];
-            if (N * part.spacing * f.per_strip <
-                0x1p30)  // strips are counted from the group's first sample, in 32 bits
+            // Strips are counted from a group's first sample, in 32 bits.
+            if (N * part.spacing * f.per_strip < 0x1p30)
                 for (std::size_t i = 0; i < part.whole(); i += N) add_family<N>(f, n, band_gain, part, i, values + i);
             else
                 for (std::size_t i = 0; i < part.count; ++i) add_family<1>(f, n, band_gain, part, i, values + i);
