@@ -8035,9 +8035,9 @@ constexpr float empty_depth(depth_compare compare) {
 /// How depth between the vertices is computed.
 enum class depth_precision {
     exact,  ///< correctly rounded: the float nearest to the plane through the three snapped vertices
-    /// In float, clamped to the vertices' depths. Depth alone takes an eighth of the time at 4 pixels per vertex, a
-    /// quarter to a half at one, four fifths at half a pixel. Off by at most 2^-22 of the largest depth, plus 2^-19 of
-    /// the triangle's range of depths where it fills half of its bounding box, and 2^-7 of it on the thinnest.
+    /// In float, clamped to the vertices' depths. Depth alone takes a quarter of the time where a mesh has no more
+    /// vertices than pixels, and little less or none on finer meshes. Off by at most 2^-22 of the largest depth, plus
+    /// 2^-19 of the triangle's range of depths where it fills half of its bounding box, and 2^-7 of it on the thinnest.
     quick,
 };
 
