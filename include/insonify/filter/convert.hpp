@@ -11,7 +11,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail::inline INSONIFY_FLAGS {
+inline namespace INSONIFY_FLAGS {
 
 /// Quantizes gray or each channel of a colour.
 template <pixel_code Code>
@@ -41,15 +41,15 @@ struct to_unit {
     }
 };
 
-}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_FLAGS
 
 /// [0, 1] -> 0 ... 255, rounded to nearest; values outside are clamped, NaN becomes 0.
-inline constexpr detail::to_code<std::uint8_t> to_uint8{};
+inline constexpr to_code<std::uint8_t> to_uint8{};
 /// [0, 1] -> 0 ... 65535, in the same way.
-inline constexpr detail::to_code<std::uint16_t> to_uint16{};
+inline constexpr to_code<std::uint16_t> to_uint16{};
 
 /// 0 ... 255 or 65535 -> [0, 1]; `to_uint8` or `to_uint16` restores the same codes.
-inline constexpr detail::to_unit to_float{};
+inline constexpr to_unit to_float{};
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

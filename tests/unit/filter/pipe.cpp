@@ -251,6 +251,8 @@ TEST_CASE("Quantization rounds to nearest, ties up, and has an exact inverse") {
 
     const in::image<std::uint8_t> codes{{0, 1, 128, 255}};
     CHECK((codes | in::to_float | in::to_uint8) == codes);
+    const auto there_and_back = in::to_float | in::to_uint8;  // a chain without an image in front
+    CHECK((codes | there_and_back) == codes);
     CHECK((in::image<float>{{0.25f}} | in::to_uint16) == in::image<std::uint16_t>{{16384}});
     CHECK((in::image<in::rgb8>{{{255, 0, 51}}} | in::to_float) == in::image<in::rgb<float>>{{{1, 0, 0.2f}}});
     CHECK((in::image<in::rgb<float>>{{{1, 0, 0.2f}}} | in::to_uint8) == in::image<in::rgb8>{{{255, 0, 51}}});
