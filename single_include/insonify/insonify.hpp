@@ -2770,37 +2770,33 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-inline namespace INSONIFY_FLAGS {
-
 /// Quantizes gray or each channel of a colour.
 template <pixel_code Code>
 struct to_code {
     using is_filter = std::true_type;
     template <std::same_as<float> Channel>
-    constexpr Code operator()(Channel value) const {
+    INSONIFY_MEMBER constexpr Code operator()(Channel value) const {
         return quantize<Code>(value);
     }
     template <std::same_as<float> Channel>
-    constexpr rgb<Code> operator()(const rgb<Channel>& value) const {
+    INSONIFY_MEMBER constexpr rgb<Code> operator()(const rgb<Channel>& value) const {
         return {quantize<Code>(value.r), quantize<Code>(value.g), quantize<Code>(value.b)};
     }
-    void row(const float* from, Code* to, int count, int, int) const { quantize_row(from, to, count); }
+    INSONIFY_TAGGED void row(const float* from, Code* to, int count, int, int) const { quantize_row(from, to, count); }
 };
 
 /// Dequantizes gray or each channel of a colour.
 struct to_unit {
     using is_filter = std::true_type;
     template <pixel_code Code>
-    constexpr float operator()(Code value) const {
+    INSONIFY_MEMBER constexpr float operator()(Code value) const {
         return dequantize(value);
     }
     template <pixel_code Code>
-    constexpr rgb<float> operator()(const rgb<Code>& value) const {
+    INSONIFY_MEMBER constexpr rgb<float> operator()(const rgb<Code>& value) const {
         return {dequantize(value.r), dequantize(value.g), dequantize(value.b)};
     }
 };
-
-}  // namespace INSONIFY_FLAGS
 
 /// [0, 1] -> 0 ... 255, rounded to nearest; values outside are clamped, NaN becomes 0.
 inline constexpr to_code<std::uint8_t> to_uint8{};

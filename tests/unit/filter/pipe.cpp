@@ -87,6 +87,15 @@ TEST_CASE("A chain gives the result of its stages applied one by one") {
     }
 }
 
+TEST_CASE("Conversions begin and join chains as all other filters do") {
+    const in::image<std::uint8_t> codes{{0, 1, 128, 255}};
+    const auto half = [](float value) { return 0.5f * value; };
+    const auto there_and_back = in::to_float | in::to_uint8;
+    CHECK((codes | there_and_back) == codes);
+    CHECK((codes | (in::to_float | half | in::to_uint16)) == (codes | in::to_float | half | in::to_uint16));
+    CHECK((codes | in::to_float | (half | in::to_uint8)) == (codes | in::to_float | half | in::to_uint8));
+}
+
 TEST_CASE("An image may be filtered by a function of a pixel, of a pixel and its coordinates, or of the image") {
     const in::image<float> source{{0, 0.25f}, {0.5f, 1}};
     CHECK((source | [](float v) { return v * 0.5f; }) == in::image<float>{{0, 0.125f}, {0.25f, 0.5f}});
@@ -251,8 +260,6 @@ TEST_CASE("Quantization rounds to nearest, ties up, and has an exact inverse") {
 
     const in::image<std::uint8_t> codes{{0, 1, 128, 255}};
     CHECK((codes | in::to_float | in::to_uint8) == codes);
-    const auto there_and_back = in::to_float | in::to_uint8;  // a chain without an image in front
-    CHECK((codes | there_and_back) == codes);
     CHECK((in::image<float>{{0.25f}} | in::to_uint16) == in::image<std::uint16_t>{{16384}});
     CHECK((in::image<in::rgb8>{{{255, 0, 51}}} | in::to_float) == in::image<in::rgb<float>>{{{1, 0, 0.2f}}});
     CHECK((in::image<in::rgb<float>>{{{1, 0, 0.2f}}} | in::to_uint8) == in::image<in::rgb8>{{{255, 0, 51}}});
