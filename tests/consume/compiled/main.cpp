@@ -1,10 +1,11 @@
-// Links units with different flags: each draws the same bytes, and units exchange pictures.
+// Links units with different flags: each draws the same bytes, and units exchange pictures and filters.
 #include <cstdio>
 
 #include "unit.hpp"
 
 int main() {
-    const in::image<float> drawn = draw_alone(), recorded = record_alone(), filtered = filter_alone(drawn);
+    const quantization quantize = in::to_uint8 | in::to_float;
+    const in::image<float> drawn = draw_alone(), recorded = record_alone(), filtered = filter_alone(drawn, quantize);
     bool same = !drawn.empty() && !recorded.empty();
     if (!same) std::puts("Unit alone returns an empty picture.");
     const auto check = [&](const char* unit, const char* function, const in::image<float>& picture,
@@ -19,7 +20,7 @@ int main() {
 #define CHECK_UNIT(unit)                               \
     check(#unit, "draw", pictures[number++], drawn);   \
     check(#unit, "record", record_##unit(), recorded); \
-    for (const in::image<float>& picture : pictures) check(#unit, "filter", filter_##unit(picture), filtered);
+    for (const in::image<float>& picture : pictures) check(#unit, "filter", filter_##unit(picture, quantize), filtered);
     UNITS(CHECK_UNIT)
     if (same) std::puts("Every unit draws the same bytes.");
     return same ? 0 : 1;

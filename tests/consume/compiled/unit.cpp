@@ -24,6 +24,6 @@ in::image<float> JOIN(record_, UNIT)() {
     return in::with_speckle(in::render(scene, rig, in::record_options<>{}.with(equation))).image;
 }
 
-in::image<float> JOIN(filter_, UNIT)(const in::image<float>& picture) {
-    return picture | in::equalize{} | in::speckle{.variance = 0.1f, .seed = 7};
+in::image<float> JOIN(filter_, UNIT)(const in::image<float>& picture, const quantization& quantize) {
+    return picture | quantize | in::equalize{} | in::speckle{.variance = 0.1f, .seed = 7};
 }
