@@ -168,7 +168,7 @@ class rank_pass {
 
 /// Gives an image the distribution of a reference, by exact ranks. The reference's distribution is computed once and
 /// shared by copies of the filter. Floats become floats: NaN stays NaN, infinities become the lowest or the highest
-/// rank's value. Codes become the nearest codes. An image without a finite pixel passes through.
+/// rank's value. Codes become the codes nearest to those floats. An image without a finite pixel passes through.
 ///
 /// A constant image becomes the reference's largest value, as in scikit-image: all its pixels have the highest rank.
 ///

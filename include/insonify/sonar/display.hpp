@@ -116,10 +116,10 @@ struct automatic_display {
     }
 
   private:
-    /// Zero intensity counts as -300 dB, infinite intensity as 300 dB.
+    /// Zero intensity counts as -460 dB and infinite intensity as 390 dB, beyond all positive and finite floats.
     INSONIFY_TAGGED static double measure(double intensity, display_scale as) {
-        if (!(intensity > 1e-30)) intensity = as == display_scale::decibels ? 1e-30 : 0.0;
-        if (intensity > 1e30) intensity = 1e30;
+        if (!(intensity > 0)) intensity = as == display_scale::decibels ? 1e-46 : 0.0;
+        if (intensity > 1e39) intensity = 1e39;
         if (as == display_scale::power) return intensity;
         if (as == display_scale::amplitude) return numeric::square_root(intensity);
         return 4.3429448190325182 * numeric::log(intensity);

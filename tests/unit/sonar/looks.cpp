@@ -120,6 +120,24 @@ TEST_CASE("automatic_display() in decibels stretches the echoes, however many pi
     CHECK(shown(0, 99) == 0);
 }
 
+TEST_CASE("automatic_display() stretches the smallest and the largest floats") {
+    using float_limits = std::numeric_limits<float>;
+    for (const auto scale : {in::display_scale::power, in::display_scale::amplitude, in::display_scale::decibels})
+        for (const float unit : {float_limits::denorm_min(), float_limits::max() / 4}) {
+            in::image<float> ramp(5, 1);
+            for (int x = 0; x < 4; ++x) ramp(x, 0) = unit * static_cast<float>(x + 1);
+            ramp(4, 0) = positive_infinity;
+            const auto shown = ramp | in::automatic_display{.scale = scale, .black_fraction = 0, .white_fraction = 0};
+            CAPTURE(static_cast<int>(scale), unit);
+            CHECK(shown(0, 0) == 0);
+            CHECK(shown(1, 0) > 0.3f);
+            CHECK(shown(2, 0) > shown(1, 0));
+            CHECK(shown(2, 0) < 0.9f);
+            CHECK(shown(3, 0) == 1);
+            CHECK(shown(4, 0) == 1);
+        }
+}
+
 TEST_CASE("automatic_display() takes constant, empty and non-finite pictures") {
     CHECK((in::image<float>(3, 3, 2.0f) | in::automatic_display{})(1, 1) == 0);
     CHECK((in::image<float>(1, 1, not_a_number) | in::automatic_display{})(0, 0) == 0);
