@@ -27,7 +27,7 @@ struct flatten {
     float level = 0;   ///< metres above the datum
 };
 
-/// Smooths the ground by a cubic B-spline: of waves of one length 2 % is left, of two lengths 19 %, of four 65 %.
+/// Smooths the ground by a cubic B-spline: of waves of one length nothing is left, of two lengths 17 %, of four 66 %.
 /// Beside gaps the ground stays as it is. Evaluates 16 rows of the ground for one: of overlapping ones, each takes 16
 /// times as long as the one before.
 struct smooth {

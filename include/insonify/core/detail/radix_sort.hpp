@@ -1,5 +1,5 @@
-// Radix sort by digits of 11 bits, in linear time: 4.5 times as fast as std::sort on millions of random 32-bit values,
-// 1.4 times on `keyed` items whose 64-bit keys are random. Digits that all items share cost no pass.
+// Radix sort by digits of 11 bits, in linear time: 4.6 times as fast as std::sort on millions of random 32-bit values,
+// 1.6 times on `keyed` items whose 64-bit keys are random. Digits that all items share cost no pass.
 #pragma once
 
 #include <insonify/core/detail/dynamic_array.hpp>
