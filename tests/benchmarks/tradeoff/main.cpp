@@ -297,6 +297,37 @@ void measure_geometry(const options& o, report::contents& into) {
         [](std::size_t, const in::image<float>&) { return std::string(""); });
 }
 
+/// How densely recordings sample the seabed, and send rays.
+void measure_recordings(const options& o, report::contents& into) {
+    const in::side_scan rig{.altitude = 5, .pings = o.pixels / 4, .range = 40, .bins = 8 * o.pixels};
+    const std::vector<double> cells{0.02, 0.04, 0.08, 0.16};
+    for (const auto& [name, bottom] : {seabeds[0], seabeds[2]}) {
+        in::scene scene;
+        scene.seabed = bottom;
+        const auto record = [&](double cell) { return in::render(scene, rig, in::record_options<>{.cell = cell}); };
+        const auto amplitude_of = [](const in::frame<>& f) {
+            return in::map_pixels(f.image, [](float v) { return in::numeric::square_root(v); });
+        };
+        const auto truth = record(0.005);
+        const auto amplitude = amplitude_of(truth);
+        const double scale = in::accuracy::compare_images(amplitude, in::image<float>(rig.bins, rig.pings)).rmse();
+        std::vector<std::string> names;
+        for (const double cell : cells) names.push_back(name + ", " + svg::number(100 * cell, 0) + " cm");
+        cost::measure_knob(
+            o.runs, into, {.name = "cell of recordings over 40 m, from 5 m above", .oracle = "cells of 5 mm"}, names,
+            [&](std::size_t i) { return record(cells[i]); },
+            [&](std::size_t, const in::frame<>& f) {
+                std::size_t differing = 0;
+                for (std::size_t i = 0; i < f.image.size(); ++i)
+                    differing += f.labels.shadow.pixels()[i] != truth.labels.shadow.pixels()[i];
+                const double labels = static_cast<double>(differing) / static_cast<double>(f.image.size());
+                const double echoes = in::accuracy::compare_images(amplitude_of(f), amplitude).rmse() / scale;
+                return "shadow label of " + svg::number(100 * labels, 1) + " % of the bins, amplitude " +
+                       svg::number(100 * echoes, 1) + " % rms";
+            });
+    }
+}
+
 double variance_of(const in::image<float>& picture) {
     double mean = 0, square = 0;
     const auto n = static_cast<double>(picture.size());
@@ -377,6 +408,7 @@ int main(int argc, char** argv) try {
     measure_targets(o, found);
     measure_reach(o, found);
     measure_geometry(o, found);
+    measure_recordings(o, found);
     measure_filters(o, found);
     measure_depth(o, found);
     in::write_file(o.out + "/tradeoff.md", report::page(found));
