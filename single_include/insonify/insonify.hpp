@@ -286,7 +286,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail {
 
-/// Thread-safe: frames are often destroyed on another thread than the one that rendered them.
+/// Thread-safe: frames are often destroyed on a thread other than the one that rendered them.
 class block_pool {
   public:
     static constexpr std::size_t min_bytes = std::size_t{1} << 16;  ///< smaller blocks are left to the allocator
@@ -459,8 +459,8 @@ inline bool parse_number(std::string_view text, double& value) {
     // Some from_chars read nan(...), with any text in the parentheses.
     if (status == std::errc::invalid_argument || end != text.data() + text.size() || text.back() == ')') return false;
     if (status == std::errc::result_out_of_range) {
-        // The status does not tell which end of the range was left; the decimal exponent of the first digit that is
-        // not 0 does.
+        // The status is the same at both ends of the range; the decimal exponent of the first nonzero digit tells them
+        // apart.
         const std::size_t mark = (std::min)(text.find_first_of("eE"), text.size());
         const std::size_t point = (std::min)(text.find('.'), mark), first = text.find_first_of("123456789");
         double exponent = 0;
@@ -498,7 +498,7 @@ char* format_number(char* first, char* last, Number value) {
         char* const end = first + std::strlen(first);
         if (at == nullptr) return end;
         *at = '.';
-        return std::copy(at + point.size(), end, at + 1);
+        return point.size() == 1 ? end : std::copy(at + point.size(), end, at + 1);
     } else
 #endif
         return std::to_chars(first, last, value).ptr;
@@ -618,8 +618,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 /// `ex.bulk(count, fn)` calls `fn(i)` once for every i in [0, count), in any order and on any thread, and returns when
-/// all calls have returned. If calls throw, it rethrows one of their exceptions when no other call runs; calls that
-/// have not begun by then may be left out. No result of the library depends on which executor ran it.
+/// all calls have returned. If calls throw, it waits for those that run and rethrows one of the exceptions; calls that
+/// have not begun may be skipped. No result of the library depends on which executor ran it.
 template <class E>
 concept executor = requires(E& ex, void (*fn)(std::size_t)) {
     ex.bulk(std::size_t{}, fn);
@@ -707,15 +707,15 @@ void bulk_ranges(E& ex, std::size_t count, std::size_t grain, Fn&& fn) {
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Pass one in place of the executor: the renderers' large temporaries, and the images of pictures and pixel filters,
-/// take their memory from it and return it when they are destroyed, so that the next frame finds it mapped. Without
-/// one, every frame allocates afresh.
+/// Pass one in place of the executor: the renderers' large temporaries, and the images that renderers and pixel
+/// filters return, take their memory from it and return it when they are destroyed, so that the next frame finds it
+/// mapped. Without one, every frame allocates afresh.
 ///
 ///     in::thread_pool pool;
 ///     in::context context(pool);
 ///     for (const in::scene& scene : scenes) save(in::render(scene, rig, {}, context));
 ///
-/// Results are ordinary values: they may outlive the context, be destroyed on another thread, and their copies
+/// Results are ordinary values: they may outlive the context and be destroyed on another thread. Copies of them
 /// allocate afresh. What is kept never exceeds 1.5 times the peak in use.
 class context {
   public:
@@ -1222,6 +1222,11 @@ inline double rounded_to_eight_bits(double length) {
     return static_cast<double>(floor_to_int(length / unit + 0.5)) * unit;
 }
 
+/// The first part of ln 2; its last bits are 0, so that its product with a small whole number is exact.
+inline constexpr double ln2_high = 0x1.62e42feep-1;
+/// The rest of ln 2.
+inline constexpr double ln2_low = 0x1.a39ef35793c76p-33;
+
 /// Natural logarithm, <= 1 ulp. log(0) = -infinity, negative and NaN give NaN.
 ///
 /// x = 2^k m with m in [sqrt(1/2), sqrt(2)); log m = 2 atanh((m - 1) / (m + 1)) as a series.
@@ -1245,9 +1250,6 @@ constexpr double log(double x) {
     double tail = 1.0 / 23;
     for (int n = 21; n >= 3; n -= 2) tail = tail * t + 1.0 / n;
     const double half_square = 0.5 * f * f;
-    // ln 2 in two parts: the first has trailing zeros, so its product with k is exact.
-    constexpr double ln2_high = 0x1.62e42feep-1;
-    constexpr double ln2_low = 0x1.a39ef35793c76p-33;
     return k * ln2_high - ((half_square - (s * (half_square + 2 * t * tail) + k * ln2_low)) - f);
 }
 
@@ -1256,8 +1258,6 @@ constexpr double exp(double x) {
     if (x > 709.8) return std::numeric_limits<double>::infinity();
     if (x < -745.2) return 0;
     if (!(x == x)) return x;
-    constexpr double ln2_high = 0x1.62e42feep-1;
-    constexpr double ln2_low = 0x1.a39ef35793c76p-33;
     const std::int64_t k = floor_to_int(x * std::numbers::log2e + 0.5);
     const double r = (x - static_cast<double>(k) * ln2_high) - static_cast<double>(k) * ln2_low;
     double sum = 1.0;
@@ -1794,6 +1794,14 @@ INSONIFY_INLINE void unroll(const Body& body) {
     (std::make_integer_sequence<int, Count>{});
 }
 
+/// Exchanges a and b in the lanes of a mask.
+template <class Mask, class Lanes>
+INSONIFY_INLINE void exchange(const Mask& where, Lanes& a, Lanes& b) {
+    const Lanes old = a;
+    a = where ? b : a;
+    b = where ? old : b;
+}
+
 /// The least and the largest of three values, lane by lane.
 template <class Lanes>
 INSONIFY_INLINE void range_of(Lanes& low, Lanes& high, const Lanes& a, const Lanes& b, const Lanes& c) {
@@ -1844,7 +1852,7 @@ constexpr Code quantize(float value) {
     constexpr double largest = (std::numeric_limits<Code>::max)();
     if (!(value > 0)) return 0;
     if (value >= 1) return static_cast<Code>(largest);
-    return static_cast<Code>(static_cast<double>(value) * largest + 0.5);  // 24 + 16 bits: exact until the truncation
+    return static_cast<Code>(static_cast<double>(value) * largest + 0.5);  // 24 + 16 bits: exact next to ties
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -2000,9 +2008,7 @@ INSONIFY_INLINE void log_lanes(lanes<double, N>& into, const lanes<double, N>& x
     doubles tail = doubles{} + 1.0 / 23;
     unroll<10>([&](int i) INSONIFY_INLINE_LAMBDA { tail = tail * t + 1.0 / (21 - 2 * i); });
     const doubles half_square = 0.5 * f * f;
-    constexpr double ln2_high = 0x1.62e42feep-1;
-    constexpr double ln2_low = 0x1.a39ef35793c76p-33;
-    into = k * ln2_high - ((half_square - (s * (half_square + 2.0 * t * tail) + k * ln2_low)) - f);
+    into = k * numeric::ln2_high - ((half_square - (s * (half_square + 2.0 * t * tail) + k * numeric::ln2_low)) - f);
 }
 
 /// ln(2^k (1 + f)) for whole k and sqrt(1/2) - 1 <= f <= sqrt(2) - 1, relative error below 2e-7; summed in
@@ -2822,7 +2828,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail {
 
-/// Members have the names and the behaviour of std::vector's; `append` inserts a range at the end.
+/// Members behave like those of std::vector with the same names, up to what they say; `append` inserts a range at the
+/// end.
 template <class T>
 class dynamic_array {
   public:
@@ -2868,6 +2875,7 @@ class dynamic_array {
         make_room(count);
         construct_to(count);
     }
+    /// @pre `value` is not an element of this array
     INSONIFY_TAGGED void assign(std::size_t count, const T& value) {
         shrink(0);
         reserve(count);
@@ -7504,12 +7512,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-[[noreturn]] inline void raise_io(std::string_view path, std::string_view reason) {
-    throw_error(
-        io_error((path.empty() ? "a file with an empty name" : std::string(path)) + ": " + std::string(reason)));
-}
-[[noreturn]] inline void raise_io(std::string_view path, std::string_view reason, int error) {
-    raise_io(path, std::string(reason) + ": " + std::error_code(error, std::generic_category()).message());
+/// @param error  errno, whose message is appended; 0: none
+[[noreturn]] inline void raise_io(std::string_view path, std::string_view reason, int error = 0) {
+    std::string text = (path.empty() ? "a file with an empty name" : std::string(path)) + ": " + std::string(reason);
+    if (error != 0) text += ": " + std::error_code(error, std::generic_category()).message();
+    throw_error(io_error(text));
 }
 
 /// Owns an open file.
@@ -8032,7 +8039,7 @@ constexpr float empty_depth(depth_compare compare) {
 enum class depth_precision {
     exact,  ///< correctly rounded: the float nearest to the plane through the three snapped vertices
     /// In float, clamped to the vertices' depths. Depth alone takes a quarter of the time where a mesh has no more
-    /// vertices than pixels, and little less or none on finer meshes. Off by at most 2^-22 of the largest depth, plus
+    /// vertices than pixels, and about the same time on finer meshes. Off by at most 2^-22 of the largest depth, plus
     /// 2^-19 of the triangle's range of depths where it fills half of its bounding box, and 2^-7 of it on the thinnest.
     quick,
 };
@@ -10728,7 +10735,7 @@ inline glm::dvec3 facet_of(std::span<const caster> casters, const points& at, st
     return numeric::cross(corner(1) - a, corner(2) - a);
 }
 
-/// `structure.test(points, results)` sets all results. It is called for several batches at the same time.
+/// `structure.test(points, results)` sets all results. It may be called for several batches concurrently.
 template <class S>
 concept occlusion = requires(const S& structure, const points& at, const results& into) {
     structure.test(at, into);
@@ -11615,8 +11622,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 /// Camera and light above a position on the seabed. Image up is forward, image right is starboard. The light comes from
-/// the left, so shadows fall to the right, as in a starboard channel. What is less than a thousandth of the altitude
-/// below the camera, or above it, is not drawn; it still casts shadows.
+/// the left, so shadows fall to the right, as in a starboard channel. Geometry above the camera, or less than a
+/// thousandth of the altitude below it, is not drawn but casts shadows.
 ///
 /// A pixel is linear radiance: reflectivity x (intensity x law(sine of the grazing angle on the surface) x lit fraction
 /// + sky x fraction of the sky that the surface faces + ambient), clamped to 1.
@@ -12039,7 +12046,7 @@ struct tile_grid {
 /// Triangles with consecutive ids.
 struct triangle_run {
     std::uint32_t first, count;
-    bool is_small;  ///< see small_setup.hpp
+    bool is_small;  ///< see small_setup.hpp; in the bins of shadow casters, every triangle is
 };
 
 /// Reads the triangles of a tile's runs in order; small ones in groups across runs.
@@ -12595,7 +12602,7 @@ INSONIFY_ARITHMETIC_END
 //
 // Only triangles that reach behind the camera plane, out of the depth range, or 2^50 sub-pixels out of the picture are
 // clipped; the image's rectangle cuts off the rest. Where an edge crosses a plane, the new vertex has the same bits
-// from whichever end it is computed, and both triangles at the edge get it: no crack opens, however many planes cut.
+// whichever end it is computed from, and both triangles at the edge share it: no crack opens, however many planes cut.
 //
 // Based on: Ivan E. Sutherland, Gary W. Hodgman. Reentrant Polygon Clipping. Communications of the ACM 17(1), 1974.
 
@@ -12693,10 +12700,9 @@ class projection {
     /// Clips a triangle by all planes.
     clip_polygon clip(const std::array<glm::dvec4, 3>& triangle) const {
         clip_polygon polygon;
-        for (int i = 0; i < 3; ++i) {
-            const glm::dvec3 weights{i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};
-            polygon.corners[static_cast<std::size_t>(i)] = {triangle[static_cast<std::size_t>(i)], weights};
-        }
+        polygon.corners[0] = {triangle[0], {1, 0, 0}};
+        polygon.corners[1] = {triangle[1], {0, 1, 0}};
+        polygon.corners[2] = {triangle[2], {0, 0, 1}};
         polygon.count = 3;
         for (int plane = 0; plane < clip_polygon::planes && polygon.count > 0; ++plane) polygon = cut(polygon, plane);
         for (int i = 0; i < polygon.count; ++i) move_inside(polygon.corners[static_cast<std::size_t>(i)].position);
@@ -12820,10 +12826,11 @@ class screen_polygon {
         }
         area_sign_ = area.sign();
         // The largest part that is oriented like the whole polygon.
+        int128 largest{};
         for (int i = 1; i + 1 < count_; ++i) {
             const int128 part = wide_area(at(0), at(i), at(i + 1)), size = area_sign_ < 0 ? -part : part;
-            if ((size - largest_).sign() > 0) {
-                largest_ = size;
+            if ((size - largest).sign() > 0) {
+                largest = size;
                 largest_part_ = i;
             }
         }
@@ -12907,7 +12914,6 @@ class screen_polygon {
     std::array<screen_vertex, 3 + clip_polygon::planes> corners_;
     int count_;
     bool has_orientation_[3] = {};  ///< whether a part runs counter-clockwise, is degenerate, runs clockwise
-    int128 largest_{};
     int largest_part_ = 1;
     int area_sign_ = 0;
 };
@@ -13461,15 +13467,17 @@ struct vertex_kernel {
         lanes<std::int64_t, N> x, y;
         screen.template to_screen<N>(p, x, y, z, inverse_w);
         if constexpr (N == 4 && quick) {
-            if (count == N && vertices.inverse_w.empty()) return store_four(start, x, y, z, inverse_w);
+            if (count == N) return store_four(start, x, y, z, inverse_w);
         }
         for (std::size_t k = 0; k < count; ++k) {
             const int i = static_cast<int>(k);
             packed_vertex<Real>& packed = vertices.packed[start + k];
             packed.position = {static_cast<std::int32_t>(lane(x, i)), static_cast<std::int32_t>(lane(y, i))};
             packed.depth = static_cast<Real>(lane(z, i));
-            if constexpr (quick) packed.inverse_w = static_cast<float>(lane(inverse_w, i));
-            if (!vertices.inverse_w.empty()) vertices.inverse_w[start + k] = lane(inverse_w, i);
+            if constexpr (quick)
+                packed.inverse_w = static_cast<float>(lane(inverse_w, i));
+            else if (!vertices.inverse_w.empty())
+                vertices.inverse_w[start + k] = lane(inverse_w, i);
         }
     }
 
@@ -14370,13 +14378,6 @@ struct tile_kernel {
         small_fill<N, Real, HasIds>{setup, planes, static_cast<int>(triangles.grid().unit()), tile, ids, count}(
             [&](int k, int x, int y) { return triangles.rounded_depth(ids[k], x, y); });
     }
-
-    template <class Mask, class Lanes>
-    INSONIFY_INLINE static void exchange(const Mask& where, Lanes& a, Lanes& b) {
-        const Lanes old = a;
-        a = where ? b : a;
-        b = where ? old : b;
-    }
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -14839,7 +14840,7 @@ inline namespace INSONIFY_FLAGS {
 
 /// Draws depth alone; no shading is compiled.
 ///
-/// @param m        a mesh, or a view of your own buffers; at most 2^32 - 2 triangles
+/// @param m        a mesh, or a view of your own buffers; at most 2^32 - 2 triangles, parts of clipped ones included
 /// @param shader   vertex_shader or vertex_lane_shader
 /// @param target   depth image; each side at most 2^(30 - subpixel_bits) pixels and 2^16 tiles (2^22 pixels by default)
 /// @param options  see draw_options; `draw_options<depth_precision::quick>` for depths in float
@@ -14939,6 +14940,24 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
+/// Coordinates of a point of a plane along two axes.
+struct plane_axes {
+    glm::dvec2 origin{0};
+    glm::dvec2 x_of{0}, y_of{0};  ///< the first coordinate is dot(x_of, p - origin), the second alike
+
+    plane_axes() = default;
+    /// @param x, y  the axes; not parallel
+    plane_axes(const glm::dvec2& start, const glm::dvec2& x, const glm::dvec2& y)
+        : origin(start),
+          x_of(glm::dvec2(y.y, -y.x) / numeric::cross(x, y)),
+          y_of(glm::dvec2(-x.y, x.x) / numeric::cross(x, y)) {}
+
+    INSONIFY_INLINE glm::dvec2 operator()(const glm::dvec2& p) const {
+        const double dx = p.x - origin.x, dy = p.y - origin.y;
+        return {x_of.x * dx + x_of.y * dy, y_of.x * dx + y_of.y * dy};
+    }
+};
+
 /// A grid with axes along the light: X counts vertices along the axis closer to the light's direction, Y across it.
 /// Light travels towards larger X and Y, by `slope` steps of Y per step of X.
 struct lit_grid {
@@ -14949,19 +14968,12 @@ struct lit_grid {
     std::ptrdiff_t first = 0, along = 1, across = 1;  ///< index of vertex (0, 0) in the mesh, and strides
     std::ptrdiff_t pitch = 1;                         ///< vertices from one row of the mesh to the next
     std::ptrdiff_t first_cell = 0, cell_along = 1, cell_across = 1;  ///< the same for cells
-    glm::dvec2 x_of, y_of;  ///< X = dot(x_of, p - origin), Y alike, in the mesh's frame
-    glm::dvec2 origin{0};
+    plane_axes steps;                                                ///< (X, Y) of a position in the mesh's frame
 
-    lit_grid() = default;
     /// @param travel  direction in which light travels, in the mesh's frame; downwards
     lit_grid(const regular_grid& grid, const glm::dvec3& travel)
-        : columns(grid.columns),
-          rows(grid.rows),
-          is_rising(grid.is_rising),
-          across(grid.columns),
-          pitch(grid.columns),
-          origin(grid.origin) {
-        glm::dvec2 x = grid.right, y = grid.up;
+        : columns(grid.columns), rows(grid.rows), is_rising(grid.is_rising), across(grid.columns), pitch(grid.columns) {
+        glm::dvec2 origin = grid.origin, x = grid.right, y = grid.up;
         double travel_x = numeric::cross(glm::dvec2(travel), y) / numeric::cross(x, y),
                travel_y = numeric::cross(x, glm::dvec2(travel)) / numeric::cross(x, y);
         if (numeric::abs(travel_y) > numeric::abs(travel_x)) {
@@ -14970,9 +14982,9 @@ struct lit_grid {
             std::swap(x, y);
             std::swap(travel_x, travel_y);
         }
-        const auto turn = [&](double& steps, int count, std::ptrdiff_t& stride, glm::dvec2& axis) {
-            if (steps >= 0) return;
-            steps = -steps;
+        const auto turn = [&](double& travelled, int count, std::ptrdiff_t& stride, glm::dvec2& axis) {
+            if (travelled >= 0) return;
+            travelled = -travelled;
             first += (count - 1) * stride;
             origin += static_cast<double>(count - 1) * axis;
             stride = -stride;
@@ -14983,18 +14995,12 @@ struct lit_grid {
         turn(travel_y, rows, across, y);
         slope = travel_x > 0 ? travel_y / travel_x : 0;
         u_per_metre = travel_x / -travel.z;
-        x_of = glm::dvec2(y.y, -y.x) / numeric::cross(x, y);
-        y_of = glm::dvec2(-x.y, x.x) / numeric::cross(x, y);
-        // A row has one cell less than vertices.
+        steps = {origin, x, y};
+        // A row has one cell fewer than it has vertices.
         const auto cell_steps = [&](std::ptrdiff_t vertices) { return vertices - vertices / pitch; };
         first_cell = cell_steps(corner(0, 0));
         cell_along = cell_steps(along);
         cell_across = cell_steps(across);
-    }
-    /// (X, Y) of a position in the mesh's frame.
-    INSONIFY_INLINE glm::dvec2 steps(const glm::dvec2& p) const {
-        const double dx = p.x - origin.x, dy = p.y - origin.y;
-        return {x_of.x * dx + x_of.y * dy, y_of.x * dx + y_of.y * dy};
     }
     /// Index of the lowest-numbered vertex of a cell.
     INSONIFY_INLINE std::ptrdiff_t corner(int x, int y) const {
@@ -15243,9 +15249,10 @@ class horizon_bounds {
         using namespace insonify::detail;
         using reals = lanes<double, N>;
         using bits = lanes<std::int64_t, N>;
-        const reals dx = p[0] - grid_.origin.x, dy = p[1] - grid_.origin.y;
-        const reals x = grid_.x_of.x * dx + grid_.x_of.y * dy;
-        const reals strip = grid_.y_of.x * dx + grid_.y_of.y * dy - grid_.slope * x - static_cast<double>(first_strip_);
+        const plane_axes& axes = grid_.steps;
+        const reals dx = p[0] - axes.origin.x, dy = p[1] - axes.origin.y;
+        const reals x = axes.x_of.x * dx + axes.x_of.y * dy;
+        const reals strip = axes.y_of.x * dx + axes.y_of.y * dy - grid_.slope * x - static_cast<double>(first_strip_);
         const bits exists = bits(x >= 0.0) & bits(x <= static_cast<double>(grid_.columns - 1)) &
                             bits(strip >= lattice_margin_) & bits(strip < strips_ - lattice_margin_);
         const reals u = x + grid_.u_per_metre * p[2];
@@ -15408,33 +15415,25 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 /// Maps points of a light's plane to where their rays meet the plane z = 0 of a mesh, in grid steps.
 class mesh_plane_intercepts {
   public:
-    mesh_plane_intercepts(const light_plane& plane, const affine& placement, const lit_grid& grid) {
+    mesh_plane_intercepts(const light_plane& plane, const affine& placement, const lit_grid& grid) : grid_(grid) {
         const auto projected = [&](double x, double y) {
             return glm::dvec2(plane(transform_point(placement, {x, y, 0})));
         };
-        origin_ = projected(0, 0);
-        const glm::dvec2 x = projected(1, 0) - origin_, y = projected(0, 1) - origin_;
-        const double area = numeric::cross(x, y);
-        x_of_ = glm::dvec2(y.y, -y.x) / area;
-        y_of_ = glm::dvec2(-x.y, x.x) / area;
-        grid_ = &grid;
-    }
-    glm::dvec2 operator()(const glm::dvec2& at) const {
-        const glm::dvec2 offset = at - origin_;
-        return grid_->steps({x_of_.x * offset.x + x_of_.y * offset.y, y_of_.x * offset.x + y_of_.y * offset.y});
+        const glm::dvec2 origin = projected(0, 0);
+        metres_ = {origin, projected(1, 0) - origin, projected(0, 1) - origin};
     }
 
     /// Bounds of the images of a rectangle.
     insonify::detail::ground_rect of(const glm::dvec2& corner, const glm::dvec2& size) const {
         insonify::detail::ground_rect all;
         for (const glm::dvec2& to : {glm::dvec2(0), glm::dvec2(size.x, 0), glm::dvec2(0, size.y), size})
-            all.include((*this)(corner + to));
+            all.include(grid_.steps(metres_(corner + to)));
         return all;
     }
 
   private:
-    glm::dvec2 origin_{0}, x_of_{0}, y_of_{0};
-    const lit_grid* grid_ = nullptr;
+    plane_axes metres_;  ///< on the plane z = 0 of the mesh
+    const lit_grid& grid_;
 };
 
 /// Decides all triangles of one grid, seen by one camera.
@@ -15450,7 +15449,7 @@ class horizon_triangles {
         // sin(grazing angle) = slope of u along the light x sin(elevation) / |normal of the facet|. `steepest` is an
         // upper bound of that |normal|.
         const double relief = horizon.u().highest_z - horizon.u().lowest_z;
-        const double steps_per_metre = (std::max)(numeric::length(grid_.x_of), numeric::length(grid_.y_of));
+        const double steps_per_metre = (std::max)(numeric::length(grid_.steps.x_of), numeric::length(grid_.steps.y_of));
         const double steepest = 1 + 2 * relief * steps_per_metre;
         const double sine = -travel.z / numeric::length(travel);
         constexpr double min_sine = 0x1p-20;  // triangles at a smaller grazing angle are left to the test of points
@@ -15503,8 +15502,8 @@ class horizon_triangles {
     }
 
   private:
-    /// Size in cells of the parts whose results stay in the cache. Along a column, what is read is contiguous; from one
-    /// to the next it is in another page, which no hardware prefetches.
+    /// Size in cells of the parts whose results stay in the cache. Within a column, reads are contiguous; the next
+    /// column is on another page, where hardware prefetchers do not follow.
     static constexpr int wide = 32, tall = 256;
 
     /// Results for the cells of a part.
@@ -15571,20 +15570,20 @@ class horizon_triangles {
             const floats dy = static_cast<float>(whole.eye_.y - y) - row;
             const floats error = 4 * margin * ((2 + numeric::abs(dx)) + (dy < 0.0f ? 0.0f - dy : dy));
             const floats eye = static_cast<float>(whole.eye_u_) - error;
-            const triangle_lanes<N> known_of{dark_below,
-                                             lit_above,
-                                             eye,
-                                             dy,
-                                             dx,
-                                             static_cast<float>(grid.slope),
-                                             static_cast<float>(whole.min_facing_slope_)};
+            const cell_triangles<N> decide{dark_below,
+                                           lit_above,
+                                           eye,
+                                           dy,
+                                           dx,
+                                           static_cast<float>(grid.slope),
+                                           static_cast<float>(whole.min_facing_slope_)};
             lanes<std::int32_t, N> lower, upper;
             if (grid.is_rising) {
-                known_of(lower, a, b, d, b - a, d - b, a);
-                known_of(upper, a, d, c, d - c, c - a, a);
+                decide(lower, a, b, d, b - a, d - b, a);
+                decide(upper, a, d, c, d - c, c - a, a);
             } else {
-                known_of(lower, a, b, c, b - a, c - a, a);
-                known_of(upper, b, d, c, d - c, d - b, b + c - d);
+                decide(lower, a, b, c, b - a, c - a, a);
+                decide(upper, b, d, c, d - c, d - b, b + c - d);
             }
             const auto& first = whole.lower_is_first_ ? lower : upper;
             const auto& second = whole.lower_is_first_ ? upper : lower;
@@ -15594,7 +15593,7 @@ class horizon_triangles {
 
     /// Decides one triangle of each of N cells.
     template <int N>
-    struct triangle_lanes {
+    struct cell_triangles {
         using floats = insonify::detail::lanes<float, N>;
         using ints = insonify::detail::lanes<std::int32_t, N>;
         floats dark_below, lit_above;  ///< bounds: dark below the first, lit above the second
@@ -15736,47 +15735,8 @@ class horizon_walk {
     /// @param decide       decide(triangle): test of a triangle in doubles; false for the triangle of the point
     template <class Decide>
     bool is_blocked(bool is_lit_side, const Decide& decide) const {
-        return walk(is_lit_side || lies_above(), decide);
-    }
-
-  private:
-    static constexpr double infinity = std::numeric_limits<double>::infinity();
-
-    /// u on the edges that the ray crosses in one column of cells.
-    struct crossing {
-        double smallest = infinity, largest = -infinity;
-        double certain = -infinity;  ///< the largest u that certainly lies before the point
-    };
-
-    double row_at(double column) const { return w_ + grid_.slope * column; }
-    int clamped_row(double y) const {
-        return static_cast<int>((std::min)((std::max)(y, 0.0), static_cast<double>(grid_.rows - 2)));
-    }
-
-    /// Whether the point is above the surface by more than the error of u.
-    bool lies_above() const {
-        const double y = row_at(x_);
-        if (!(x_ >= lattice_margin_ && x_ <= grid_.columns - 1 - lattice_margin_ && y >= lattice_margin_ &&
-              y <= grid_.rows - 1 - lattice_margin_))
-            return false;
-        for (const double x : {x_ - lattice_margin_, x_ + lattice_margin_})
-            for (int row = clamped_row(y - lattice_margin_); row <= clamped_row(y + lattice_margin_); ++row)
-                if (!(largest_u((std::min)(static_cast<int>(x), grid_.columns - 2), row, row) < u_ - horizon_.margin()))
-                    return false;
-        return true;
-    }
-    /// The largest u of the corners of some cells of a column.
-    double largest_u(int column, int first_row, int last_row) const {
-        const float* const here = horizon_.u().column(column);
-        const float* const ahead = horizon_.u().column(column + 1);
-        float largest = grid_u::nothing;
-        for (int y = first_row; y <= last_row + 1; ++y) largest = (std::max)({largest, here[y], ahead[y]});
-        return static_cast<double>(largest);
-    }
-
-    /// @param is_above  the ray begins on or over the surface, so that it meets whatever rises above it
-    template <class Decide>
-    bool walk(bool is_above, const Decide& decide) const {
+        // Whether the ray begins on or over the surface, so that it meets whatever rises above it.
+        bool is_above = is_lit_side || lies_above();
         const double u_lower_bound = u_ - horizon_.margin();
         const double highest_z = horizon_.u().highest_z;
         if (!(x_ + lattice_margin_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
@@ -15819,6 +15779,41 @@ class horizon_walk {
             }
         }
         return false;
+    }
+
+  private:
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    /// u on the edges that the ray crosses in one column of cells.
+    struct crossing {
+        double smallest = infinity, largest = -infinity;
+        double certain = -infinity;  ///< the largest u that certainly lies before the point
+    };
+
+    double row_at(double column) const { return w_ + grid_.slope * column; }
+    int clamped_row(double y) const {
+        return static_cast<int>((std::min)((std::max)(y, 0.0), static_cast<double>(grid_.rows - 2)));
+    }
+
+    /// Whether the point is above the surface by more than the error of u.
+    bool lies_above() const {
+        const double y = row_at(x_);
+        if (!(x_ >= lattice_margin_ && x_ <= grid_.columns - 1 - lattice_margin_ && y >= lattice_margin_ &&
+              y <= grid_.rows - 1 - lattice_margin_))
+            return false;
+        for (const double x : {x_ - lattice_margin_, x_ + lattice_margin_})
+            for (int row = clamped_row(y - lattice_margin_); row <= clamped_row(y + lattice_margin_); ++row)
+                if (!(largest_u((std::min)(static_cast<int>(x), grid_.columns - 2), row, row) < u_ - horizon_.margin()))
+                    return false;
+        return true;
+    }
+    /// The largest u of the corners of some cells of a column.
+    double largest_u(int column, int first_row, int last_row) const {
+        const float* const here = horizon_.u().column(column);
+        const float* const ahead = horizon_.u().column(column + 1);
+        float largest = grid_u::nothing;
+        for (int y = first_row; y <= last_row + 1; ++y) largest = (std::max)({largest, here[y], ahead[y]});
+        return static_cast<double>(largest);
     }
 
     /// Decides by the bounds of a column, once the ray has been followed down to it.
@@ -15996,11 +15991,8 @@ class light_rays {
         } else {
             source_ = std::get<point_light>(light).position;
             is_point_light_ = true;
-            for (int i = 0; i < 3; ++i) {
-                insonify::detail::require(numeric::is_finite(source_[i]), "point_light.position", source_[i],
-                                          "finite coordinates");
-                light_reach_ = (std::max)(light_reach_, numeric::abs(source_[i]));
-            }
+            insonify::detail::require_finite("point_light.position", source_);
+            for (int i = 0; i < 3; ++i) light_reach_ = (std::max)(light_reach_, numeric::abs(source_[i]));
         }
     }
 
@@ -16029,9 +16021,9 @@ class light_rays {
         const glm::dvec3 normal = numeric::cross(b - a, c - a);
         // Measured from the nearest corner: the rounding error of a distant one may exceed the point's distance.
         const auto size = [](const glm::dvec3& d) { return numeric::abs(d.x) + numeric::abs(d.y) + numeric::abs(d.z); };
-        const glm::dvec3& some = size(a) <= size(b) ? a : b;
+        const glm::dvec3& nearer = size(a) <= size(b) ? a : b;
         const double along = numeric::dot(normal, to_light),
-                     behind = numeric::dot(normal, size(some) <= size(c) ? some : c);
+                     behind = numeric::dot(normal, size(nearer) <= size(c) ? nearer : c);
         const double sign = is_left ? 1 : -1;
         const double tolerance = 0x1p-40 * size(normal);
         if (!(sign * along > 0 && sign * behind > reach_ * tolerance)) return false;
@@ -16191,7 +16183,7 @@ struct plane_triangles {
     }
 };
 
-/// Notes which tiles the triangles of a chunk touch, in order.
+/// Records which tiles the triangles of a chunk touch, in order.
 struct tile_assembly_kernel {
     const plane_vertex* vertices;
     const mesh_view& mesh;
@@ -16511,10 +16503,6 @@ struct occlusion_kernel {
     }
 
   private:
-    float height_error_of_receivers() const {
-        return 0x1.2p-24f * (std::max)(receivers.highest(), -receivers.lowest()) + error;
-    }
-
     template <int N>
     INSONIFY_INLINE void triangles(const std::uint32_t* ids, int count) const {
         using namespace insonify::detail;
@@ -16544,8 +16532,8 @@ struct occlusion_kernel {
         });
         floats low, high;
         range_of(low, high, t.a[2], t.b[2], t.c[2]);
-        const floats height_rounding =
-            0x1.2p-24f * (high > 0.0f - low ? high : 0.0f - low) + height_error_of_receivers();
+        const float receiver_rounding = 0x1.2p-24f * (std::max)(receivers.highest(), -receivers.lowest()) + error;
+        const floats height_rounding = 0x1.2p-24f * (high > 0.0f - low ? high : 0.0f - low) + receiver_rounding;
         missed |=
             ints(high + 2.0f * height_rounding < receivers.lowest()) & ints(t.state == 0.0f);  // below all receivers
         floats ab[3], ac[3];
@@ -16565,11 +16553,7 @@ struct occlusion_kernel {
         const unsigned some_skip = may_skip != skip::nothing ? movemask<N>(facing) : 0;
         // Counter-clockwise on the plane.
         const ints is_clockwise = ints(area < 0.0f);
-        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
-            const floats other = ab[axis];
-            ab[axis] = is_clockwise ? ac[axis] : ab[axis];
-            ac[axis] = is_clockwise ? other : ac[axis];
-        });
+        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA { exchange(is_clockwise, ab[axis], ac[axis]); });
         area = is_clockwise ? 0.0f - area : area;
         // The rounding error of a coordinate is half a unit in the last place, of a difference twice that; the two
         // products add their own.
@@ -16691,13 +16675,13 @@ class tile_casters {
     /// @param all  in order of casters
     tile_casters(std::size_t tiles, std::span<const covered_tile> all)
         : only_(tiles, none), starts_(tiles + 1, 0), casters_(all.size()) {
-        for (const covered_tile& o : all) {
-            ++starts_[o.tile + 1];
-            only_[o.tile] = only_[o.tile] == none ? o.caster : several;
+        for (const auto& [tile, caster] : all) {
+            ++starts_[tile + 1];
+            only_[tile] = only_[tile] == none ? caster : several;
         }
         for (std::size_t tile = 0; tile < tiles; ++tile) starts_[tile + 1] += starts_[tile];
         dynamic_array<std::size_t> next = starts_;
-        for (const covered_tile& o : all) casters_[next[o.tile]++] = o.caster;
+        for (const auto& [tile, caster] : all) casters_[next[tile]++] = caster;
     }
 
     /// In order.
@@ -17518,7 +17502,6 @@ class pixel_marks {
         std::uint8_t& byte = bytes_(x / 8, y);
         byte = static_cast<std::uint8_t>((byte & ~(which << x % 8)) | (marks & which) << x % 8);
     }
-    void set(int x, int y) { set(x, y, 1, 1); }
     /// Clears a mark.
     /// @returns whether it was set
     bool take(int x, int y) {
@@ -17592,7 +17575,7 @@ class undecided_light {
     }
 
     /// Marks a pixel of a list again.
-    void mark(int x, int y) { marks_.set(x, y); }
+    void mark(int x, int y) { marks_.set(x, y, 1, 1); }
 
     /// Calls visit(pixel) for each undecided pixel of a tile and clears its mark.
     template <class Visit>
@@ -17613,13 +17596,13 @@ class undecided_light {
 
     /// Removes entries that are not valid.
     INSONIFY_RARE void remove_hidden(std::size_t tile) {
-        list& of = lists_[tile];
-        undecided_pixel* const start = pixels_.data() + of.start;
-        undecided_pixel *const end = start + of.count, *last = end;
+        list& entries = lists_[tile];
+        undecided_pixel* const start = pixels_.data() + entries.start;
+        undecided_pixel *const end = start + entries.count, *last = end;
         take(tile, [&](const undecided_pixel p) { *--last = p; });
-        of.count = static_cast<std::size_t>(std::copy(last, end, start) - start);
+        entries.count = static_cast<std::size_t>(std::copy(last, end, start) - start);
         const glm::ivec2 corner = tiles_.corner(tile);
-        for (std::size_t i = 0; i < of.count; ++i) mark(corner.x + start[i].column, corner.y + start[i].row);
+        for (std::size_t i = 0; i < entries.count; ++i) mark(corner.x + start[i].column, corner.y + start[i].row);
     }
 
     tile_grid tiles_{0, 0, 0};
@@ -18242,9 +18225,8 @@ inline bool is_within_outline(const placed_mesh& m, const glm::dvec3& p) {
         return p.x >= m.box.lower.x && p.x <= m.box.upper.x && p.y >= m.box.lower.y && p.y <= m.box.upper.y;
     const regular_grid& g = *m.grid;
     const glm::dvec2 from = glm::dvec2(p) - g.origin;
-    const double area = g.right.x * g.up.y - g.right.y * g.up.x;
-    const double column = (from.x * g.up.y - from.y * g.up.x) / area,
-                 row = (g.right.x * from.y - g.right.y * from.x) / area;
+    const double area = numeric::cross(g.right, g.up);
+    const double column = numeric::cross(from, g.up) / area, row = numeric::cross(g.right, from) / area;
     return column >= g.lattice_error && column <= g.columns - 1 - g.lattice_error && row >= g.lattice_error &&
            row <= g.rows - 1 - g.lattice_error;
 }
@@ -18660,8 +18642,8 @@ class sampled_bottom {
                 E& ex) {
         seabed::grid grid{.origin = position, .spacing = spacing, .band_limited = true};
         const auto along = [&](int axis) {
-            const double most = (ground.upper[axis] - ground.lower[axis]) / spacing + 4;
-            require(most <= 1 << 20, "vertices of the seabed along an axis", most,
+            const double vertices = (ground.upper[axis] - ground.lower[axis]) / spacing + 4;
+            require(vertices <= 1 << 20, "vertices of the seabed along an axis", vertices,
                     "at most 2^20; reduce `reach` or enlarge `cell`");
             // A vertex more on each side, so that normals in view are not one-sided differences.
             const double first = static_cast<double>(numeric::floor_to_int(ground.lower[axis] / spacing + 1e-6)) - 1;
@@ -18889,26 +18871,23 @@ class shadow_pass {
         ex.bulk(lists.size(), [&](std::size_t i) { finish(lists[i], part(i)); });
     }
 
+    /// Adds the light that arrives at the pixels of points, and labels their shadows.
     void finish(const point_list& points, const shadow::results& light) {
-        for (std::size_t i = 0; i < points.size(); ++i)
-            finish(points.pixel(i), points.direct(i), i < points.facing, points.caster(i), light.lit[i],
-                   light.caster[i]);
-    }
-    /// Adds the light that arrives at a pixel, and labels its shadow.
-    /// @param direct  light that arrives if nothing blocks it
-    /// @param own     the caster that the point lies on
-    /// @param caster  the caster that blocks its light
-    void finish(std::size_t pixel, float direct, bool is_facing, std::uint32_t own, float lit, std::uint32_t caster) {
-        if (is_facing && lit > 0.0f) {
-            float& value = images_.picture.pixels()[pixel];
-            value = (std::min)(1.0f, value + lit * direct);
-        }
-        if constexpr (labelled) {
-            if (is_facing && !(lit < 0.5f)) return;
-            if (!is_facing && caster >= targets_) caster = own;
-            // Without a caster the point is not tested yet, or the light's centre is visible.
-            if (caster != shadow::invalid_id)
-                images_.labels.shadow.pixels()[pixel] = labels::of_caster(caster, targets_);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const std::size_t pixel = points.pixel(i);
+            const bool is_facing = i < points.facing;
+            if (is_facing && light.lit[i] > 0.0f) {
+                float& value = images_.picture.pixels()[pixel];
+                value = (std::min)(1.0f, value + light.lit[i] * points.direct(i));
+            }
+            if constexpr (labelled) {
+                if (is_facing && !(light.lit[i] < 0.5f)) continue;
+                std::uint32_t caster = light.caster[i];
+                if (!is_facing && caster >= targets_) caster = points.caster(i);  // its own mesh
+                // Without a caster the point is not tested yet, or the light's centre is visible.
+                if (caster != shadow::invalid_id)
+                    images_.labels.shadow.pixels()[pixel] = labels::of_caster(caster, targets_);
+            }
         }
     }
 
@@ -18919,7 +18898,7 @@ class shadow_pass {
     std::uint32_t targets_;
     tile_grid tiles_;
     std::size_t tile_pixels_;
-    std::size_t grain_;  ///< tiles of a batch
+    std::size_t grain_;  ///< tiles per call of the executor, whose points fit one batch
     isa level_;
 };
 
@@ -19018,15 +18997,14 @@ class overhead_renderer {
                              : std::uint64_t{objects_.back().first_id} + objects_.back().placed.shape.triangles.size();
         const std::uint64_t end = first + placed.shape.triangles.size();
         require(end < shadow::invalid_id, "triangles of the scene", end, "below 2^32 - 1");
-        objects_.push_back({});
-        drawn_object& s = objects_.back();
-        s.placed = placed;
-        s.first_id = static_cast<std::uint32_t>(first);
-        s.caster = static_cast<std::uint32_t>(caster);
-        s.instance = instance;
-        s.seabed = seabed;
-        s.self_shadow_label = labels::of_caster(s.caster, scene_.targets.size());
-        s.whole = m;
+        const auto number = static_cast<std::uint32_t>(caster);
+        objects_.push_back({.placed = placed,
+                            .first_id = static_cast<std::uint32_t>(first),
+                            .caster = number,
+                            .instance = instance,
+                            .seabed = seabed,
+                            .whole = m,
+                            .self_shadow_label = labels::of_caster(number, scene_.targets.size())});
     }
 
     /// Samples the ground in view, and towards the light as far as its relief can cast a shadow into view.
@@ -19194,7 +19172,7 @@ struct mask_difference {
     std::size_t true_positives = 0;   ///< in both masks
     std::size_t false_positives = 0;  ///< in the result, not in the truth: for shadows, acne
     std::size_t false_negatives = 0;  ///< in the truth, not in the result: for shadows, light leaks
-    std::size_t boundary_pixels = 0;  ///< of the truth: in the mask, with a 4-neighbour in the image that is not
+    std::size_t boundary_pixels = 0;  ///< of the truth's mask that have a 4-neighbour outside it, in the image
 
     INSONIFY_MEMBER std::size_t wrong_pixels() const { return false_positives + false_negatives; }
 
@@ -19681,16 +19659,16 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     const budget usable{how.usable_fraction * tolerated.shadow_edge, tolerated.silhouette,
                         how.usable_fraction * tolerated.height, how.usable_fraction * tolerated.intensity};
 
-    // From the coarsest grid on, halving the cells each time, at first with more texels than can matter. If no grid is
-    // within the budget, the one that exceeds it least is taken.
+    // From the coarsest grid on, halving the cell size each time, at first with more texels than can matter. If no grid
+    // is within the budget, the one that exceeds it least is taken.
     double many_texels = 8;
     if constexpr (requires { found.shadow.largest; })
         many_texels = (std::min)(many_texels, static_cast<double>(found.shadow.largest) / longer);
-    const double most = (std::min)(how.finest, pixel / detail::min_cell(view));
-    double cells = 0, chosen = most, least_excess = std::numeric_limits<double>::infinity();
+    const double finest = (std::min)(how.finest, pixel / detail::min_cell(view));
+    double cells = 0, chosen = finest, least_excess = std::numeric_limits<double>::infinity();
     bool is_enough = false;
     do {
-        cells = (std::min)((std::max)(2 * cells, 1.0 / 16), most);
+        cells = (std::min)((std::max)(2 * cells, 1.0 / 16), finest);
         const errors all = errors_of(cells, many_texels);
         is_enough = is_within(all, usable);
         const double excess = (std::max)((std::max)(all.shadow_edge / usable.shadow_edge, all.height / usable.height),
@@ -19698,7 +19676,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         if (!is_enough && excess >= least_excess) continue;
         least_excess = excess;
         chosen = cells;
-    } while (!is_enough && cells < most);
+    } while (!is_enough && cells < finest);
     const double fewer = chosen * 0.70710678118654752;
     if (is_enough && is_within(errors_of(fewer, many_texels), usable)) chosen = fewer;
 
@@ -24050,31 +24028,6 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::inline INSONIFY_FLAGS {
 
-/// A rectangle of the light's frame and the heights that count within it.
-struct map_extent {
-    glm::dvec2 lowest{(std::numeric_limits<double>::max)()};  ///< (u, v), metres
-    glm::dvec2 highest{-(std::numeric_limits<double>::max)()};
-    double floor = (std::numeric_limits<double>::max)();  ///< z
-    double ceiling = -(std::numeric_limits<double>::max)();
-
-    bool empty() const { return highest.x < lowest.x || highest.y < lowest.y; }
-
-    void include(const glm::dvec3& uvz) {
-        lowest = {(std::min)(lowest.x, uvz.x), (std::min)(lowest.y, uvz.y)};
-        highest = {(std::max)(highest.x, uvz.x), (std::max)(highest.y, uvz.y)};
-        floor = (std::min)(floor, uvz.z);
-        ceiling = (std::max)(ceiling, uvz.z);
-    }
-
-    /// The part over the rays of the receivers, with the heights of all casters.
-    map_extent clipped_to(const map_extent& receivers) const {
-        map_extent both = *this;
-        both.lowest = {(std::max)(lowest.x, receivers.lowest.x), (std::max)(lowest.y, receivers.lowest.y)};
-        both.highest = {(std::min)(highest.x, receivers.highest.x), (std::min)(highest.y, receivers.highest.y)};
-        return both;
-    }
-};
-
 /// Vertex shader of height maps: from a mesh's coordinates to clip space, with w = 1.
 struct map_vertex_shader {
     glm::mat3 axes;
@@ -24091,14 +24044,10 @@ struct map_vertex_shader {
     }
 };
 
-/// The bounds, in the light's frame, of a box's eight corners.
-inline map_extent extent_of(const bounding_box& box, const affine& to_world, const light_frame& frame) {
-    map_extent extent;
-    if (box.empty()) return extent;
-    for (const double x : {box.lower.x, box.upper.x})
-        for (const double y : {box.lower.y, box.upper.y})
-            for (const double z : {box.lower.z, box.upper.z})
-                extent.include(frame(transform_point(to_world, {x, y, z})));
+/// The bounds, in the light's frame (u, v, z), of a box's eight corners.
+inline bounding_box extent_of(const bounding_box& box, const affine& to_world, const light_frame& frame) {
+    bounding_box extent;
+    for (int i = 0; i < 8; ++i) extent = include(extent, frame(transform_point(to_world, box.corner(i))));
     return extent;
 }
 
@@ -24109,24 +24058,23 @@ class height_map {
     height_map() : frame_(directional_light{}) {}
 
     /// @param frame    of the light
-    /// @param extent   (u, v) of the rays, and range of heights; casters outside it are clipped
+    /// @param extent   u and v of the rays, and z, range of heights; casters outside it are clipped
     /// @param texel    metres between rays along u and v; grows if the map would have more than `largest` texels a side
-    /// @throws invalid_input for a texel that isn't positive or a `largest` outside [1, 32768]
-    height_map(const light_frame& frame, const map_extent& extent, double texel, int largest = 8192)
-        : frame_(frame), origin_(extent.lowest) {
-        insonify::detail::require(texel > 0 && numeric::is_finite(texel), "texel", texel, "a positive length");
+    /// @throws invalid_input for a texel that isn't finite and positive or a `largest` outside [1, 32768]
+    height_map(const light_frame& frame, const bounding_box& extent, double texel, int largest = 8192)
+        : frame_(frame), origin_(extent.lower) {
+        insonify::detail::require_positive("texel", texel);
         insonify::detail::require(largest >= 1 && largest <= 32768, "largest", largest, "1 to 32768");
         if (extent.empty()) return;
-        const glm::dvec2 size = extent.highest - extent.lowest;
+        const glm::dvec3 size = extent.size();
         texel_ = (std::max)(texel, (std::max)(size.x, size.y) / (largest - 0.5));
         const auto texels = [&](double length) {
             return (std::min)(largest, static_cast<int>(numeric::floor_to_int(length / texel_)) + 1);
         };
         // A little room below and above, so that rounding can't clip the highest caster away.
-        const double height = extent.ceiling - extent.floor;
-        const double room = 1e-3 * height + 1e-6;
-        floor_ = extent.floor - room;
-        relief_ = height + 2 * room;
+        const double room = 1e-3 * size.z + 1e-6;
+        floor_ = extent.lower.z - room;
+        relief_ = size.z + 2 * room;
         heights_ = image<float>(texels(size.x), texels(size.y), empty_depth(depth_compare::greater));
     }
 
@@ -24276,47 +24224,39 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow {
 
-/// How a map is laid out.
-struct map_layout {
-    float texels_per_pixel = 1.5f;
-    int largest = 8192;
-    int radius = 0;  ///< of the filter, texels
-};
-
 inline namespace INSONIFY_FLAGS {
-
-/// @throws invalid_input for a value out of its range
-inline void validate(const map_layout& m) {
-    insonify::detail::require(m.texels_per_pixel > 0 && numeric::is_finite(m.texels_per_pixel),
-                              "map_layout.texels_per_pixel", m.texels_per_pixel, "above 0");
-    insonify::detail::require(m.largest >= 1 && m.largest <= 32768, "map_layout.largest", m.largest, "1 to 32768");
-    insonify::detail::require(m.radius >= 0 && m.radius <= 8, "map_layout.radius", m.radius, "0 to 8 texels");
-}
 
 /// The height maps of casters under one parallel light.
 class map_occlusion {
   public:
-    /// See casting_policy.
-    /// @throws invalid_input for a layout out of range, a point_light, or an index without a position
+    /// See casting_policy; the members of `pcf` come first.
+    /// @throws invalid_input for a member out of range, a point_light, or an index without a position
     template <executor E>
-    map_occlusion(const map_layout& layout, std::span<const caster> casters, const any_light& light,
-                  const point_bounds& bounds, E& ex)
-        : casters_(casters), frame_(parallel(light)), radius_(layout.radius) {
-        validate(layout);
-        const map_extent receivers = extent_of(bounds.box, {}, frame_);
-        const double texel = spacing_of(bounds, receivers) / static_cast<double>(layout.texels_per_pixel);
-        lowest_ = receivers.lowest;
-        const glm::dvec2 size = receivers.highest - receivers.lowest;
+    map_occlusion(float texels_per_pixel, int largest, int radius, std::span<const caster> casters,
+                  const any_light& light, const point_bounds& bounds, E& ex)
+        : casters_(casters), frame_(parallel(light)), radius_(radius) {
+        insonify::detail::require_positive("shadow map's texels_per_pixel", texels_per_pixel);
+        insonify::detail::require_range("shadow map's largest", largest, 1, 32768, "1 to 32768");
+        insonify::detail::require_range("shadow map's radius", radius, 0, 8, "0 to 8 texels");
+        const bounding_box receivers = extent_of(bounds.box, {}, frame_);
+        const double texel = spacing_of(bounds, receivers) / static_cast<double>(texels_per_pixel);
+        lowest_ = receivers.lower;
+        const glm::dvec3 size = receivers.size();
         for (int i = 0; i < 2; ++i) tiles_per_metre_[i] = size[i] > 0 ? side / size[i] : 0;
         insonify::detail::dynamic_array<detail::tile_casters::covered_tile> covered;
         for (std::size_t k = 0; k < casters_.size(); ++k) {
             const caster& c = casters_[k];
-            const map_extent own = extent_of(c.box, c.placement, frame_).clipped_to(receivers);
-            maps_.push_back({frame_, own, texel, layout.largest});
+            bounding_box own = extent_of(c.box, c.placement, frame_);
+            for (int i = 0; i < 2; ++i) {  // the rays of the receivers, with the heights of the whole caster
+                own.lower[i] = (std::max)(own.lower[i], receivers.lower[i]);
+                own.upper[i] = (std::min)(own.upper[i], receivers.upper[i]);
+            }
+            maps_.push_back({frame_, own, texel, largest});
             maps_.back().cast(c.mesh, c.placement, ex);
             if (maps_.back().empty()) continue;
-            const double reach = (layout.radius + 2) * maps_.back().texel();  // of the filter, and rounding
-            const glm::ivec2 first = tile_of(own.lowest - reach), last = tile_of(own.highest + reach);
+            const double reach = (radius + 2) * maps_.back().texel();  // of the filter, and rounding
+            const glm::ivec2 first = tile_of(glm::dvec2(own.lower) - reach),
+                             last = tile_of(glm::dvec2(own.upper) + reach);
             for (int row = first.y; row <= last.y; ++row)
                 for (int column = first.x; column <= last.x; ++column)
                     covered.push_back({static_cast<std::uint32_t>(row * side + column), static_cast<std::uint32_t>(k)});
@@ -24370,7 +24310,7 @@ class map_occlusion {
         return light_frame(std::get<directional_light>(light));
     }
     /// Metres between points; if unknown, those of a picture of 2048 pixels that shows all of them.
-    static double spacing_of(const point_bounds& bounds, const map_extent& receivers) {
+    static double spacing_of(const point_bounds& bounds, const bounding_box& receivers) {
         if (bounds.spacing > 0 || receivers.empty()) return bounds.spacing > 0 ? bounds.spacing : 1;
         const glm::dvec3 size = bounds.box.upper - bounds.box.lower;
         const double longer = (std::max)({size.x, size.y, size.z});
@@ -24389,7 +24329,7 @@ class map_occlusion {
 
 /// A map of the casters' heights along the light, looked up at the nearest texel: hard edges.
 struct map {
-    float texels_per_pixel = 1.5f;  ///< of the points' spacing; a shadow edge is off by 0.71 texels at most
+    float texels_per_pixel = 1.5f;  ///< texels per spacing of the points; a shadow edge is off by 0.71 texels at most
     int largest = 8192;             ///< texels a side; texels are enlarged where a map would exceed it
 
     /// See casting_policy.
@@ -24397,7 +24337,7 @@ struct map {
     template <executor E>
     INSONIFY_MEMBER map_occlusion build(std::span<const caster> casters, const any_light& light,
                                         const point_bounds& bounds, E& ex) const {
-        return {{texels_per_pixel, largest, 0}, casters, light, bounds, ex};
+        return {texels_per_pixel, largest, 0, casters, light, bounds, ex};
     }
 };
 
@@ -24412,7 +24352,7 @@ struct pcf {
     template <executor E>
     INSONIFY_MEMBER map_occlusion build(std::span<const caster> casters, const any_light& light,
                                         const point_bounds& bounds, E& ex) const {
-        return {{texels_per_pixel, largest, radius}, casters, light, bounds, ex};
+        return {texels_per_pixel, largest, radius, casters, light, bounds, ex};
     }
 };
 
@@ -24501,9 +24441,9 @@ class penumbra_occlusion {
 
 }  // namespace INSONIFY_FLAGS
 
-/// Soft edges: exact shadows from several points of a disc light. Each takes the time, and until the picture is
-/// finished the memory, of `exact`. The caster is the one that blocks the light's centre. The disc of a point light
-/// faces the origin of the frame in which the light is described.
+/// Soft edges: exact shadows from several points of a disc light. Each sample costs as much time as `exact`,
+/// and holds its memory until the picture is finished. The caster is the one that blocks the light's centre. The disc
+/// of a point light faces the origin of the frame in which the light is described.
 struct penumbra {
     float diameter = static_cast<float>(numeric::to_radians(0.5));  ///< seen from the ground, 0 to 1 radian
     int samples = 16;  ///< points on the disc, the first at its centre; 1 to 1024

@@ -208,16 +208,16 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     const budget usable{how.usable_fraction * tolerated.shadow_edge, tolerated.silhouette,
                         how.usable_fraction * tolerated.height, how.usable_fraction * tolerated.intensity};
 
-    // From the coarsest grid on, halving the cells each time, at first with more texels than can matter. If no grid is
-    // within the budget, the one that exceeds it least is taken.
+    // From the coarsest grid on, halving the cell size each time, at first with more texels than can matter. If no grid
+    // is within the budget, the one that exceeds it least is taken.
     double many_texels = 8;
     if constexpr (requires { found.shadow.largest; })
         many_texels = (std::min)(many_texels, static_cast<double>(found.shadow.largest) / longer);
-    const double most = (std::min)(how.finest, pixel / detail::min_cell(view));
-    double cells = 0, chosen = most, least_excess = std::numeric_limits<double>::infinity();
+    const double finest = (std::min)(how.finest, pixel / detail::min_cell(view));
+    double cells = 0, chosen = finest, least_excess = std::numeric_limits<double>::infinity();
     bool is_enough = false;
     do {
-        cells = (std::min)((std::max)(2 * cells, 1.0 / 16), most);
+        cells = (std::min)((std::max)(2 * cells, 1.0 / 16), finest);
         const errors all = errors_of(cells, many_texels);
         is_enough = is_within(all, usable);
         const double excess = (std::max)((std::max)(all.shadow_edge / usable.shadow_edge, all.height / usable.height),
@@ -225,7 +225,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         if (!is_enough && excess >= least_excess) continue;
         least_excess = excess;
         chosen = cells;
-    } while (!is_enough && cells < most);
+    } while (!is_enough && cells < finest);
     const double fewer = chosen * 0.70710678118654752;
     if (is_enough && is_within(errors_of(fewer, many_texels), usable)) chosen = fewer;
 

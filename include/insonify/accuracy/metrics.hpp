@@ -22,7 +22,7 @@ struct mask_difference {
     std::size_t true_positives = 0;   ///< in both masks
     std::size_t false_positives = 0;  ///< in the result, not in the truth: for shadows, acne
     std::size_t false_negatives = 0;  ///< in the truth, not in the result: for shadows, light leaks
-    std::size_t boundary_pixels = 0;  ///< of the truth: in the mask, with a 4-neighbour in the image that is not
+    std::size_t boundary_pixels = 0;  ///< of the truth's mask that have a 4-neighbour outside it, in the image
 
     INSONIFY_MEMBER std::size_t wrong_pixels() const { return false_positives + false_negatives; }
 

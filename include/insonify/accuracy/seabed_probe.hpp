@@ -8,6 +8,7 @@
 #include <insonify/sonar/overhead/render.hpp>
 
 #include <array>
+#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 

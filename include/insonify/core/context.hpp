@@ -9,15 +9,15 @@
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Pass one in place of the executor: the renderers' large temporaries, and the images of pictures and pixel filters,
-/// take their memory from it and return it when they are destroyed, so that the next frame finds it mapped. Without
-/// one, every frame allocates afresh.
+/// Pass one in place of the executor: the renderers' large temporaries, and the images that renderers and pixel
+/// filters return, take their memory from it and return it when they are destroyed, so that the next frame finds it
+/// mapped. Without one, every frame allocates afresh.
 ///
 ///     in::thread_pool pool;
 ///     in::context context(pool);
 ///     for (const in::scene& scene : scenes) save(in::render(scene, rig, {}, context));
 ///
-/// Results are ordinary values: they may outlive the context, be destroyed on another thread, and their copies
+/// Results are ordinary values: they may outlive the context and be destroyed on another thread. Copies of them
 /// allocate afresh. What is kept never exceeds 1.5 times the peak in use.
 class context {
   public:

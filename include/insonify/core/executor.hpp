@@ -13,8 +13,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 /// `ex.bulk(count, fn)` calls `fn(i)` once for every i in [0, count), in any order and on any thread, and returns when
-/// all calls have returned. If calls throw, it rethrows one of their exceptions when no other call runs; calls that
-/// have not begun by then may be left out. No result of the library depends on which executor ran it.
+/// all calls have returned. If calls throw, it waits for those that run and rethrows one of the exceptions; calls that
+/// have not begun may be skipped. No result of the library depends on which executor ran it.
 template <class E>
 concept executor = requires(E& ex, void (*fn)(std::size_t)) {
     ex.bulk(std::size_t{}, fn);

@@ -109,6 +109,11 @@ inline double rounded_to_eight_bits(double length) {
     return static_cast<double>(floor_to_int(length / unit + 0.5)) * unit;
 }
 
+/// The first part of ln 2; its last bits are 0, so that its product with a small whole number is exact.
+inline constexpr double ln2_high = 0x1.62e42feep-1;
+/// The rest of ln 2.
+inline constexpr double ln2_low = 0x1.a39ef35793c76p-33;
+
 /// Natural logarithm, <= 1 ulp. log(0) = -infinity, negative and NaN give NaN.
 ///
 /// x = 2^k m with m in [sqrt(1/2), sqrt(2)); log m = 2 atanh((m - 1) / (m + 1)) as a series.
@@ -132,9 +137,6 @@ constexpr double log(double x) {
     double tail = 1.0 / 23;
     for (int n = 21; n >= 3; n -= 2) tail = tail * t + 1.0 / n;
     const double half_square = 0.5 * f * f;
-    // ln 2 in two parts: the first has trailing zeros, so its product with k is exact.
-    constexpr double ln2_high = 0x1.62e42feep-1;
-    constexpr double ln2_low = 0x1.a39ef35793c76p-33;
     return k * ln2_high - ((half_square - (s * (half_square + 2 * t * tail) + k * ln2_low)) - f);
 }
 
@@ -143,8 +145,6 @@ constexpr double exp(double x) {
     if (x > 709.8) return std::numeric_limits<double>::infinity();
     if (x < -745.2) return 0;
     if (!(x == x)) return x;
-    constexpr double ln2_high = 0x1.62e42feep-1;
-    constexpr double ln2_low = 0x1.a39ef35793c76p-33;
     const std::int64_t k = floor_to_int(x * std::numbers::log2e + 0.5);
     const double r = (x - static_cast<double>(k) * ln2_high) - static_cast<double>(k) * ln2_low;
     double sum = 1.0;

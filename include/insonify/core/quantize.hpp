@@ -32,7 +32,7 @@ constexpr Code quantize(float value) {
     constexpr double largest = (std::numeric_limits<Code>::max)();
     if (!(value > 0)) return 0;
     if (value >= 1) return static_cast<Code>(largest);
-    return static_cast<Code>(static_cast<double>(value) * largest + 0.5);  // 24 + 16 bits: exact until the truncation
+    return static_cast<Code>(static_cast<double>(value) * largest + 0.5);  // 24 + 16 bits: exact next to ties
 }
 
 }  // namespace INSONIFY_FLAGS

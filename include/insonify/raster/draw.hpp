@@ -73,7 +73,7 @@ inline namespace INSONIFY_FLAGS {
 
 /// Draws depth alone; no shading is compiled.
 ///
-/// @param m        a mesh, or a view of your own buffers; at most 2^32 - 2 triangles
+/// @param m        a mesh, or a view of your own buffers; at most 2^32 - 2 triangles, parts of clipped ones included
 /// @param shader   vertex_shader or vertex_lane_shader
 /// @param target   depth image; each side at most 2^(30 - subpixel_bits) pixels and 2^16 tiles (2^22 pixels by default)
 /// @param options  see draw_options; `draw_options<depth_precision::quick>` for depths in float

@@ -38,7 +38,7 @@ constexpr float empty_depth(depth_compare compare) {
 enum class depth_precision {
     exact,  ///< correctly rounded: the float nearest to the plane through the three snapped vertices
     /// In float, clamped to the vertices' depths. Depth alone takes a quarter of the time where a mesh has no more
-    /// vertices than pixels, and little less or none on finer meshes. Off by at most 2^-22 of the largest depth, plus
+    /// vertices than pixels, and about the same time on finer meshes. Off by at most 2^-22 of the largest depth, plus
     /// 2^-19 of the triangle's range of depths where it fills half of its bounding box, and 2^-7 of it on the thinnest.
     quick,
 };

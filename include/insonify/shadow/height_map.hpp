@@ -12,38 +12,12 @@
 #include <insonify/shadow/light.hpp>
 
 #include <algorithm>
-#include <limits>
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::inline INSONIFY_FLAGS {
-
-/// A rectangle of the light's frame and the heights that count within it.
-struct map_extent {
-    glm::dvec2 lowest{(std::numeric_limits<double>::max)()};  ///< (u, v), metres
-    glm::dvec2 highest{-(std::numeric_limits<double>::max)()};
-    double floor = (std::numeric_limits<double>::max)();  ///< z
-    double ceiling = -(std::numeric_limits<double>::max)();
-
-    bool empty() const { return highest.x < lowest.x || highest.y < lowest.y; }
-
-    void include(const glm::dvec3& uvz) {
-        lowest = {(std::min)(lowest.x, uvz.x), (std::min)(lowest.y, uvz.y)};
-        highest = {(std::max)(highest.x, uvz.x), (std::max)(highest.y, uvz.y)};
-        floor = (std::min)(floor, uvz.z);
-        ceiling = (std::max)(ceiling, uvz.z);
-    }
-
-    /// The part over the rays of the receivers, with the heights of all casters.
-    map_extent clipped_to(const map_extent& receivers) const {
-        map_extent both = *this;
-        both.lowest = {(std::max)(lowest.x, receivers.lowest.x), (std::max)(lowest.y, receivers.lowest.y)};
-        both.highest = {(std::min)(highest.x, receivers.highest.x), (std::min)(highest.y, receivers.highest.y)};
-        return both;
-    }
-};
 
 /// Vertex shader of height maps: from a mesh's coordinates to clip space, with w = 1.
 struct map_vertex_shader {
@@ -61,14 +35,10 @@ struct map_vertex_shader {
     }
 };
 
-/// The bounds, in the light's frame, of a box's eight corners.
-inline map_extent extent_of(const bounding_box& box, const affine& to_world, const light_frame& frame) {
-    map_extent extent;
-    if (box.empty()) return extent;
-    for (const double x : {box.lower.x, box.upper.x})
-        for (const double y : {box.lower.y, box.upper.y})
-            for (const double z : {box.lower.z, box.upper.z})
-                extent.include(frame(transform_point(to_world, {x, y, z})));
+/// The bounds, in the light's frame (u, v, z), of a box's eight corners.
+inline bounding_box extent_of(const bounding_box& box, const affine& to_world, const light_frame& frame) {
+    bounding_box extent;
+    for (int i = 0; i < 8; ++i) extent = include(extent, frame(transform_point(to_world, box.corner(i))));
     return extent;
 }
 
@@ -79,24 +49,23 @@ class height_map {
     height_map() : frame_(directional_light{}) {}
 
     /// @param frame    of the light
-    /// @param extent   (u, v) of the rays, and range of heights; casters outside it are clipped
+    /// @param extent   u and v of the rays, and z, range of heights; casters outside it are clipped
     /// @param texel    metres between rays along u and v; grows if the map would have more than `largest` texels a side
-    /// @throws invalid_input for a texel that isn't positive or a `largest` outside [1, 32768]
-    height_map(const light_frame& frame, const map_extent& extent, double texel, int largest = 8192)
-        : frame_(frame), origin_(extent.lowest) {
-        insonify::detail::require(texel > 0 && numeric::is_finite(texel), "texel", texel, "a positive length");
+    /// @throws invalid_input for a texel that isn't finite and positive or a `largest` outside [1, 32768]
+    height_map(const light_frame& frame, const bounding_box& extent, double texel, int largest = 8192)
+        : frame_(frame), origin_(extent.lower) {
+        insonify::detail::require_positive("texel", texel);
         insonify::detail::require(largest >= 1 && largest <= 32768, "largest", largest, "1 to 32768");
         if (extent.empty()) return;
-        const glm::dvec2 size = extent.highest - extent.lowest;
+        const glm::dvec3 size = extent.size();
         texel_ = (std::max)(texel, (std::max)(size.x, size.y) / (largest - 0.5));
         const auto texels = [&](double length) {
             return (std::min)(largest, static_cast<int>(numeric::floor_to_int(length / texel_)) + 1);
         };
         // A little room below and above, so that rounding can't clip the highest caster away.
-        const double height = extent.ceiling - extent.floor;
-        const double room = 1e-3 * height + 1e-6;
-        floor_ = extent.floor - room;
-        relief_ = height + 2 * room;
+        const double room = 1e-3 * size.z + 1e-6;
+        floor_ = extent.lower.z - room;
+        relief_ = size.z + 2 * room;
         heights_ = image<float>(texels(size.x), texels(size.y), empty_depth(depth_compare::greater));
     }
 

@@ -17,47 +17,39 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow {
 
-/// How a map is laid out.
-struct map_layout {
-    float texels_per_pixel = 1.5f;
-    int largest = 8192;
-    int radius = 0;  ///< of the filter, texels
-};
-
 inline namespace INSONIFY_FLAGS {
-
-/// @throws invalid_input for a value out of its range
-inline void validate(const map_layout& m) {
-    insonify::detail::require(m.texels_per_pixel > 0 && numeric::is_finite(m.texels_per_pixel),
-                              "map_layout.texels_per_pixel", m.texels_per_pixel, "above 0");
-    insonify::detail::require(m.largest >= 1 && m.largest <= 32768, "map_layout.largest", m.largest, "1 to 32768");
-    insonify::detail::require(m.radius >= 0 && m.radius <= 8, "map_layout.radius", m.radius, "0 to 8 texels");
-}
 
 /// The height maps of casters under one parallel light.
 class map_occlusion {
   public:
-    /// See casting_policy.
-    /// @throws invalid_input for a layout out of range, a point_light, or an index without a position
+    /// See casting_policy; the members of `pcf` come first.
+    /// @throws invalid_input for a member out of range, a point_light, or an index without a position
     template <executor E>
-    map_occlusion(const map_layout& layout, std::span<const caster> casters, const any_light& light,
-                  const point_bounds& bounds, E& ex)
-        : casters_(casters), frame_(parallel(light)), radius_(layout.radius) {
-        validate(layout);
-        const map_extent receivers = extent_of(bounds.box, {}, frame_);
-        const double texel = spacing_of(bounds, receivers) / static_cast<double>(layout.texels_per_pixel);
-        lowest_ = receivers.lowest;
-        const glm::dvec2 size = receivers.highest - receivers.lowest;
+    map_occlusion(float texels_per_pixel, int largest, int radius, std::span<const caster> casters,
+                  const any_light& light, const point_bounds& bounds, E& ex)
+        : casters_(casters), frame_(parallel(light)), radius_(radius) {
+        insonify::detail::require_positive("shadow map's texels_per_pixel", texels_per_pixel);
+        insonify::detail::require_range("shadow map's largest", largest, 1, 32768, "1 to 32768");
+        insonify::detail::require_range("shadow map's radius", radius, 0, 8, "0 to 8 texels");
+        const bounding_box receivers = extent_of(bounds.box, {}, frame_);
+        const double texel = spacing_of(bounds, receivers) / static_cast<double>(texels_per_pixel);
+        lowest_ = receivers.lower;
+        const glm::dvec3 size = receivers.size();
         for (int i = 0; i < 2; ++i) tiles_per_metre_[i] = size[i] > 0 ? side / size[i] : 0;
         insonify::detail::dynamic_array<detail::tile_casters::covered_tile> covered;
         for (std::size_t k = 0; k < casters_.size(); ++k) {
             const caster& c = casters_[k];
-            const map_extent own = extent_of(c.box, c.placement, frame_).clipped_to(receivers);
-            maps_.push_back({frame_, own, texel, layout.largest});
+            bounding_box own = extent_of(c.box, c.placement, frame_);
+            for (int i = 0; i < 2; ++i) {  // the rays of the receivers, with the heights of the whole caster
+                own.lower[i] = (std::max)(own.lower[i], receivers.lower[i]);
+                own.upper[i] = (std::min)(own.upper[i], receivers.upper[i]);
+            }
+            maps_.push_back({frame_, own, texel, largest});
             maps_.back().cast(c.mesh, c.placement, ex);
             if (maps_.back().empty()) continue;
-            const double reach = (layout.radius + 2) * maps_.back().texel();  // of the filter, and rounding
-            const glm::ivec2 first = tile_of(own.lowest - reach), last = tile_of(own.highest + reach);
+            const double reach = (radius + 2) * maps_.back().texel();  // of the filter, and rounding
+            const glm::ivec2 first = tile_of(glm::dvec2(own.lower) - reach),
+                             last = tile_of(glm::dvec2(own.upper) + reach);
             for (int row = first.y; row <= last.y; ++row)
                 for (int column = first.x; column <= last.x; ++column)
                     covered.push_back({static_cast<std::uint32_t>(row * side + column), static_cast<std::uint32_t>(k)});
@@ -111,7 +103,7 @@ class map_occlusion {
         return light_frame(std::get<directional_light>(light));
     }
     /// Metres between points; if unknown, those of a picture of 2048 pixels that shows all of them.
-    static double spacing_of(const point_bounds& bounds, const map_extent& receivers) {
+    static double spacing_of(const point_bounds& bounds, const bounding_box& receivers) {
         if (bounds.spacing > 0 || receivers.empty()) return bounds.spacing > 0 ? bounds.spacing : 1;
         const glm::dvec3 size = bounds.box.upper - bounds.box.lower;
         const double longer = (std::max)({size.x, size.y, size.z});
@@ -130,7 +122,7 @@ class map_occlusion {
 
 /// A map of the casters' heights along the light, looked up at the nearest texel: hard edges.
 struct map {
-    float texels_per_pixel = 1.5f;  ///< of the points' spacing; a shadow edge is off by 0.71 texels at most
+    float texels_per_pixel = 1.5f;  ///< texels per spacing of the points; a shadow edge is off by 0.71 texels at most
     int largest = 8192;             ///< texels a side; texels are enlarged where a map would exceed it
 
     /// See casting_policy.
@@ -138,7 +130,7 @@ struct map {
     template <executor E>
     INSONIFY_MEMBER map_occlusion build(std::span<const caster> casters, const any_light& light,
                                         const point_bounds& bounds, E& ex) const {
-        return {{texels_per_pixel, largest, 0}, casters, light, bounds, ex};
+        return {texels_per_pixel, largest, 0, casters, light, bounds, ex};
     }
 };
 
@@ -153,7 +145,7 @@ struct pcf {
     template <executor E>
     INSONIFY_MEMBER map_occlusion build(std::span<const caster> casters, const any_light& light,
                                         const point_bounds& bounds, E& ex) const {
-        return {{texels_per_pixel, largest, radius}, casters, light, bounds, ex};
+        return {texels_per_pixel, largest, radius, casters, light, bounds, ex};
     }
 };
 

@@ -82,9 +82,9 @@ class penumbra_occlusion {
 
 }  // namespace INSONIFY_FLAGS
 
-/// Soft edges: exact shadows from several points of a disc light. Each takes the time, and until the picture is
-/// finished the memory, of `exact`. The caster is the one that blocks the light's centre. The disc of a point light
-/// faces the origin of the frame in which the light is described.
+/// Soft edges: exact shadows from several points of a disc light. Each sample costs as much time as `exact`,
+/// and holds its memory until the picture is finished. The caster is the one that blocks the light's centre. The disc
+/// of a point light faces the origin of the frame in which the light is described.
 struct penumbra {
     float diameter = static_cast<float>(numeric::to_radians(0.5));  ///< seen from the ground, 0 to 1 radian
     int samples = 16;  ///< points on the disc, the first at its centre; 1 to 1024

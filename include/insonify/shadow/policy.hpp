@@ -94,7 +94,7 @@ inline glm::dvec3 facet_of(std::span<const caster> casters, const points& at, st
     return numeric::cross(corner(1) - a, corner(2) - a);
 }
 
-/// `structure.test(points, results)` sets all results. It is called for several batches at the same time.
+/// `structure.test(points, results)` sets all results. It may be called for several batches concurrently.
 template <class S>
 concept occlusion = requires(const S& structure, const points& at, const results& into) {
     structure.test(at, into);

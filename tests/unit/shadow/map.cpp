@@ -156,9 +156,7 @@ TEST_CASE("PCF softens shadow edges and changes no other point") {
 
 TEST_CASE("PCF takes points beyond the map's border as lit") {
     const shadow::light_frame light({radians(30), radians(45)});
-    shadow::map_extent extent;
-    extent.include({0, 0, 0});
-    extent.include({1, 1, 0.5});
+    const in::bounding_box extent{{0, 0, 0}, {1, 1, 0.5}};
     constexpr double texel = 0.05;
     constexpr int soft = 3;
     shadow::height_map map(light, extent, texel);

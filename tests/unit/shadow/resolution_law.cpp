@@ -40,8 +40,9 @@ displacement measured(double elevation, double azimuth, double slope, double tex
                 plate.positions.emplace_back((rim + back) * travel.x - side * travel.y,
                                              (rim + back) * travel.y + side * travel.x, 1);
         plate.triangles = {{0, 2, 3}, {0, 3, 1}};
-        shadow::map_extent extent = shadow::extent_of(in::bounds(plate), {}, light);
-        extent.lowest -= 5 * texel * draw.uniform();
+        in::bounding_box extent = shadow::extent_of(in::bounds(plate), {}, light);
+        const double start = 5 * texel * draw.uniform();
+        extent.lower -= glm::dvec3(start, start, 0);
         shadow::height_map map(light, extent, texel, 32768);
         map.cast(plate, {});
 

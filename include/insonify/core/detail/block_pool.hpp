@@ -18,7 +18,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail {
 
-/// Thread-safe: frames are often destroyed on another thread than the one that rendered them.
+/// Thread-safe: frames are often destroyed on a thread other than the one that rendered them.
 class block_pool {
   public:
     static constexpr std::size_t min_bytes = std::size_t{1} << 16;  ///< smaller blocks are left to the allocator

@@ -20,7 +20,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail {
 
-/// Members have the names and the behaviour of std::vector's; `append` inserts a range at the end.
+/// Members behave like those of std::vector with the same names, up to what they say; `append` inserts a range at the
+/// end.
 template <class T>
 class dynamic_array {
   public:
@@ -66,6 +67,7 @@ class dynamic_array {
         make_room(count);
         construct_to(count);
     }
+    /// @pre `value` is not an element of this array
     INSONIFY_TAGGED void assign(std::size_t count, const T& value) {
         shrink(0);
         reserve(count);

@@ -15,12 +15,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-[[noreturn]] inline void raise_io(std::string_view path, std::string_view reason) {
-    throw_error(
-        io_error((path.empty() ? "a file with an empty name" : std::string(path)) + ": " + std::string(reason)));
-}
-[[noreturn]] inline void raise_io(std::string_view path, std::string_view reason, int error) {
-    raise_io(path, std::string(reason) + ": " + std::error_code(error, std::generic_category()).message());
+/// @param error  errno, whose message is appended; 0: none
+[[noreturn]] inline void raise_io(std::string_view path, std::string_view reason, int error = 0) {
+    std::string text = (path.empty() ? "a file with an empty name" : std::string(path)) + ": " + std::string(reason);
+    if (error != 0) text += ": " + std::error_code(error, std::generic_category()).message();
+    throw_error(io_error(text));
 }
 
 /// Owns an open file.

@@ -53,8 +53,8 @@ inline bool parse_number(std::string_view text, double& value) {
     // Some from_chars read nan(...), with any text in the parentheses.
     if (status == std::errc::invalid_argument || end != text.data() + text.size() || text.back() == ')') return false;
     if (status == std::errc::result_out_of_range) {
-        // The status does not tell which end of the range was left; the decimal exponent of the first digit that is
-        // not 0 does.
+        // The status is the same at both ends of the range; the decimal exponent of the first nonzero digit tells them
+        // apart.
         const std::size_t mark = (std::min)(text.find_first_of("eE"), text.size());
         const std::size_t point = (std::min)(text.find('.'), mark), first = text.find_first_of("123456789");
         double exponent = 0;
@@ -92,7 +92,7 @@ char* format_number(char* first, char* last, Number value) {
         char* const end = first + std::strlen(first);
         if (at == nullptr) return end;
         *at = '.';
-        return std::copy(at + point.size(), end, at + 1);
+        return point.size() == 1 ? end : std::copy(at + point.size(), end, at + 1);
     } else
 #endif
         return std::to_chars(first, last, value).ptr;

@@ -40,9 +40,7 @@ INSONIFY_INLINE void log_lanes(lanes<double, N>& into, const lanes<double, N>& x
     doubles tail = doubles{} + 1.0 / 23;
     unroll<10>([&](int i) INSONIFY_INLINE_LAMBDA { tail = tail * t + 1.0 / (21 - 2 * i); });
     const doubles half_square = 0.5 * f * f;
-    constexpr double ln2_high = 0x1.62e42feep-1;
-    constexpr double ln2_low = 0x1.a39ef35793c76p-33;
-    into = k * ln2_high - ((half_square - (s * (half_square + 2.0 * t * tail) + k * ln2_low)) - f);
+    into = k * numeric::ln2_high - ((half_square - (s * (half_square + 2.0 * t * tail) + k * numeric::ln2_low)) - f);
 }
 
 /// ln(2^k (1 + f)) for whole k and sqrt(1/2) - 1 <= f <= sqrt(2) - 1, relative error below 2e-7; summed in

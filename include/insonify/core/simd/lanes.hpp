@@ -228,6 +228,14 @@ INSONIFY_INLINE void unroll(const Body& body) {
     (std::make_integer_sequence<int, Count>{});
 }
 
+/// Exchanges a and b in the lanes of a mask.
+template <class Mask, class Lanes>
+INSONIFY_INLINE void exchange(const Mask& where, Lanes& a, Lanes& b) {
+    const Lanes old = a;
+    a = where ? b : a;
+    b = where ? old : b;
+}
+
 /// The least and the largest of three values, lane by lane.
 template <class Lanes>
 INSONIFY_INLINE void range_of(Lanes& low, Lanes& high, const Lanes& a, const Lanes& b, const Lanes& c) {

@@ -78,7 +78,7 @@ struct tile_grid {
 /// Triangles with consecutive ids.
 struct triangle_run {
     std::uint32_t first, count;
-    bool is_small;  ///< see small_setup.hpp
+    bool is_small;  ///< see small_setup.hpp; in the bins of shadow casters, every triangle is
 };
 
 /// Reads the triangles of a tile's runs in order; small ones in groups across runs.

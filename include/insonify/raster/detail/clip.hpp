@@ -2,7 +2,7 @@
 //
 // Only triangles that reach behind the camera plane, out of the depth range, or 2^50 sub-pixels out of the picture are
 // clipped; the image's rectangle cuts off the rest. Where an edge crosses a plane, the new vertex has the same bits
-// from whichever end it is computed, and both triangles at the edge get it: no crack opens, however many planes cut.
+// whichever end it is computed from, and both triangles at the edge share it: no crack opens, however many planes cut.
 //
 // Based on: Ivan E. Sutherland, Gary W. Hodgman. Reentrant Polygon Clipping. Communications of the ACM 17(1), 1974.
 #pragma once
@@ -112,10 +112,9 @@ class projection {
     /// Clips a triangle by all planes.
     clip_polygon clip(const std::array<glm::dvec4, 3>& triangle) const {
         clip_polygon polygon;
-        for (int i = 0; i < 3; ++i) {
-            const glm::dvec3 weights{i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};
-            polygon.corners[static_cast<std::size_t>(i)] = {triangle[static_cast<std::size_t>(i)], weights};
-        }
+        polygon.corners[0] = {triangle[0], {1, 0, 0}};
+        polygon.corners[1] = {triangle[1], {0, 1, 0}};
+        polygon.corners[2] = {triangle[2], {0, 0, 1}};
         polygon.count = 3;
         for (int plane = 0; plane < clip_polygon::planes && polygon.count > 0; ++plane) polygon = cut(polygon, plane);
         for (int i = 0; i < polygon.count; ++i) move_inside(polygon.corners[static_cast<std::size_t>(i)].position);

@@ -35,10 +35,11 @@ class screen_polygon {
         }
         area_sign_ = area.sign();
         // The largest part that is oriented like the whole polygon.
+        int128 largest{};
         for (int i = 1; i + 1 < count_; ++i) {
             const int128 part = wide_area(at(0), at(i), at(i + 1)), size = area_sign_ < 0 ? -part : part;
-            if ((size - largest_).sign() > 0) {
-                largest_ = size;
+            if ((size - largest).sign() > 0) {
+                largest = size;
                 largest_part_ = i;
             }
         }
@@ -122,7 +123,6 @@ class screen_polygon {
     std::array<screen_vertex, 3 + clip_polygon::planes> corners_;
     int count_;
     bool has_orientation_[3] = {};  ///< whether a part runs counter-clockwise, is degenerate, runs clockwise
-    int128 largest_{};
     int largest_part_ = 1;
     int area_sign_ = 0;
 };

@@ -129,13 +129,6 @@ struct tile_kernel {
         small_fill<N, Real, HasIds>{setup, planes, static_cast<int>(triangles.grid().unit()), tile, ids, count}(
             [&](int k, int x, int y) { return triangles.rounded_depth(ids[k], x, y); });
     }
-
-    template <class Mask, class Lanes>
-    INSONIFY_INLINE static void exchange(const Mask& where, Lanes& a, Lanes& b) {
-        const Lanes old = a;
-        a = where ? b : a;
-        b = where ? old : b;
-    }
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS

@@ -127,15 +127,17 @@ struct vertex_kernel {
         lanes<std::int64_t, N> x, y;
         screen.template to_screen<N>(p, x, y, z, inverse_w);
         if constexpr (N == 4 && quick) {
-            if (count == N && vertices.inverse_w.empty()) return store_four(start, x, y, z, inverse_w);
+            if (count == N) return store_four(start, x, y, z, inverse_w);
         }
         for (std::size_t k = 0; k < count; ++k) {
             const int i = static_cast<int>(k);
             packed_vertex<Real>& packed = vertices.packed[start + k];
             packed.position = {static_cast<std::int32_t>(lane(x, i)), static_cast<std::int32_t>(lane(y, i))};
             packed.depth = static_cast<Real>(lane(z, i));
-            if constexpr (quick) packed.inverse_w = static_cast<float>(lane(inverse_w, i));
-            if (!vertices.inverse_w.empty()) vertices.inverse_w[start + k] = lane(inverse_w, i);
+            if constexpr (quick)
+                packed.inverse_w = static_cast<float>(lane(inverse_w, i));
+            else if (!vertices.inverse_w.empty())
+                vertices.inverse_w[start + k] = lane(inverse_w, i);
         }
     }
 

@@ -191,9 +191,10 @@ class horizon_bounds {
         using namespace insonify::detail;
         using reals = lanes<double, N>;
         using bits = lanes<std::int64_t, N>;
-        const reals dx = p[0] - grid_.origin.x, dy = p[1] - grid_.origin.y;
-        const reals x = grid_.x_of.x * dx + grid_.x_of.y * dy;
-        const reals strip = grid_.y_of.x * dx + grid_.y_of.y * dy - grid_.slope * x - static_cast<double>(first_strip_);
+        const plane_axes& axes = grid_.steps;
+        const reals dx = p[0] - axes.origin.x, dy = p[1] - axes.origin.y;
+        const reals x = axes.x_of.x * dx + axes.x_of.y * dy;
+        const reals strip = axes.y_of.x * dx + axes.y_of.y * dy - grid_.slope * x - static_cast<double>(first_strip_);
         const bits exists = bits(x >= 0.0) & bits(x <= static_cast<double>(grid_.columns - 1)) &
                             bits(strip >= lattice_margin_) & bits(strip < strips_ - lattice_margin_);
         const reals u = x + grid_.u_per_metre * p[2];

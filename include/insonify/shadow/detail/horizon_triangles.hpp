@@ -9,8 +9,6 @@
 #include <insonify/shadow/detail/horizon_bounds.hpp>
 #include <insonify/shadow/detail/light_planes.hpp>
 
-#include <utility>
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
@@ -20,33 +18,25 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 /// Maps points of a light's plane to where their rays meet the plane z = 0 of a mesh, in grid steps.
 class mesh_plane_intercepts {
   public:
-    mesh_plane_intercepts(const light_plane& plane, const affine& placement, const lit_grid& grid) {
+    mesh_plane_intercepts(const light_plane& plane, const affine& placement, const lit_grid& grid) : grid_(grid) {
         const auto projected = [&](double x, double y) {
             return glm::dvec2(plane(transform_point(placement, {x, y, 0})));
         };
-        origin_ = projected(0, 0);
-        const glm::dvec2 x = projected(1, 0) - origin_, y = projected(0, 1) - origin_;
-        const double area = numeric::cross(x, y);
-        x_of_ = glm::dvec2(y.y, -y.x) / area;
-        y_of_ = glm::dvec2(-x.y, x.x) / area;
-        grid_ = &grid;
-    }
-    glm::dvec2 operator()(const glm::dvec2& at) const {
-        const glm::dvec2 offset = at - origin_;
-        return grid_->steps({x_of_.x * offset.x + x_of_.y * offset.y, y_of_.x * offset.x + y_of_.y * offset.y});
+        const glm::dvec2 origin = projected(0, 0);
+        metres_ = {origin, projected(1, 0) - origin, projected(0, 1) - origin};
     }
 
     /// Bounds of the images of a rectangle.
     insonify::detail::ground_rect of(const glm::dvec2& corner, const glm::dvec2& size) const {
         insonify::detail::ground_rect all;
         for (const glm::dvec2& to : {glm::dvec2(0), glm::dvec2(size.x, 0), glm::dvec2(0, size.y), size})
-            all.include((*this)(corner + to));
+            all.include(grid_.steps(metres_(corner + to)));
         return all;
     }
 
   private:
-    glm::dvec2 origin_{0}, x_of_{0}, y_of_{0};
-    const lit_grid* grid_ = nullptr;
+    plane_axes metres_;  ///< on the plane z = 0 of the mesh
+    const lit_grid& grid_;
 };
 
 /// Decides all triangles of one grid, seen by one camera.
@@ -62,7 +52,7 @@ class horizon_triangles {
         // sin(grazing angle) = slope of u along the light x sin(elevation) / |normal of the facet|. `steepest` is an
         // upper bound of that |normal|.
         const double relief = horizon.u().highest_z - horizon.u().lowest_z;
-        const double steps_per_metre = (std::max)(numeric::length(grid_.x_of), numeric::length(grid_.y_of));
+        const double steps_per_metre = (std::max)(numeric::length(grid_.steps.x_of), numeric::length(grid_.steps.y_of));
         const double steepest = 1 + 2 * relief * steps_per_metre;
         const double sine = -travel.z / numeric::length(travel);
         constexpr double min_sine = 0x1p-20;  // triangles at a smaller grazing angle are left to the test of points
@@ -115,8 +105,8 @@ class horizon_triangles {
     }
 
   private:
-    /// Size in cells of the parts whose results stay in the cache. Along a column, what is read is contiguous; from one
-    /// to the next it is in another page, which no hardware prefetches.
+    /// Size in cells of the parts whose results stay in the cache. Within a column, reads are contiguous; the next
+    /// column is on another page, where hardware prefetchers do not follow.
     static constexpr int wide = 32, tall = 256;
 
     /// Results for the cells of a part.
@@ -183,20 +173,20 @@ class horizon_triangles {
             const floats dy = static_cast<float>(whole.eye_.y - y) - row;
             const floats error = 4 * margin * ((2 + numeric::abs(dx)) + (dy < 0.0f ? 0.0f - dy : dy));
             const floats eye = static_cast<float>(whole.eye_u_) - error;
-            const triangle_lanes<N> known_of{dark_below,
-                                             lit_above,
-                                             eye,
-                                             dy,
-                                             dx,
-                                             static_cast<float>(grid.slope),
-                                             static_cast<float>(whole.min_facing_slope_)};
+            const cell_triangles<N> decide{dark_below,
+                                           lit_above,
+                                           eye,
+                                           dy,
+                                           dx,
+                                           static_cast<float>(grid.slope),
+                                           static_cast<float>(whole.min_facing_slope_)};
             lanes<std::int32_t, N> lower, upper;
             if (grid.is_rising) {
-                known_of(lower, a, b, d, b - a, d - b, a);
-                known_of(upper, a, d, c, d - c, c - a, a);
+                decide(lower, a, b, d, b - a, d - b, a);
+                decide(upper, a, d, c, d - c, c - a, a);
             } else {
-                known_of(lower, a, b, c, b - a, c - a, a);
-                known_of(upper, b, d, c, d - c, d - b, b + c - d);
+                decide(lower, a, b, c, b - a, c - a, a);
+                decide(upper, b, d, c, d - c, d - b, b + c - d);
             }
             const auto& first = whole.lower_is_first_ ? lower : upper;
             const auto& second = whole.lower_is_first_ ? upper : lower;
@@ -206,7 +196,7 @@ class horizon_triangles {
 
     /// Decides one triangle of each of N cells.
     template <int N>
-    struct triangle_lanes {
+    struct cell_triangles {
         using floats = insonify::detail::lanes<float, N>;
         using ints = insonify::detail::lanes<std::int32_t, N>;
         floats dark_below, lit_above;  ///< bounds: dark below the first, lit above the second

@@ -103,47 +103,8 @@ class horizon_walk {
     /// @param decide       decide(triangle): test of a triangle in doubles; false for the triangle of the point
     template <class Decide>
     bool is_blocked(bool is_lit_side, const Decide& decide) const {
-        return walk(is_lit_side || lies_above(), decide);
-    }
-
-  private:
-    static constexpr double infinity = std::numeric_limits<double>::infinity();
-
-    /// u on the edges that the ray crosses in one column of cells.
-    struct crossing {
-        double smallest = infinity, largest = -infinity;
-        double certain = -infinity;  ///< the largest u that certainly lies before the point
-    };
-
-    double row_at(double column) const { return w_ + grid_.slope * column; }
-    int clamped_row(double y) const {
-        return static_cast<int>((std::min)((std::max)(y, 0.0), static_cast<double>(grid_.rows - 2)));
-    }
-
-    /// Whether the point is above the surface by more than the error of u.
-    bool lies_above() const {
-        const double y = row_at(x_);
-        if (!(x_ >= lattice_margin_ && x_ <= grid_.columns - 1 - lattice_margin_ && y >= lattice_margin_ &&
-              y <= grid_.rows - 1 - lattice_margin_))
-            return false;
-        for (const double x : {x_ - lattice_margin_, x_ + lattice_margin_})
-            for (int row = clamped_row(y - lattice_margin_); row <= clamped_row(y + lattice_margin_); ++row)
-                if (!(largest_u((std::min)(static_cast<int>(x), grid_.columns - 2), row, row) < u_ - horizon_.margin()))
-                    return false;
-        return true;
-    }
-    /// The largest u of the corners of some cells of a column.
-    double largest_u(int column, int first_row, int last_row) const {
-        const float* const here = horizon_.u().column(column);
-        const float* const ahead = horizon_.u().column(column + 1);
-        float largest = grid_u::nothing;
-        for (int y = first_row; y <= last_row + 1; ++y) largest = (std::max)({largest, here[y], ahead[y]});
-        return static_cast<double>(largest);
-    }
-
-    /// @param is_above  the ray begins on or over the surface, so that it meets whatever rises above it
-    template <class Decide>
-    bool walk(bool is_above, const Decide& decide) const {
+        // Whether the ray begins on or over the surface, so that it meets whatever rises above it.
+        bool is_above = is_lit_side || lies_above();
         const double u_lower_bound = u_ - horizon_.margin();
         const double highest_z = horizon_.u().highest_z;
         if (!(x_ + lattice_margin_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
@@ -186,6 +147,41 @@ class horizon_walk {
             }
         }
         return false;
+    }
+
+  private:
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    /// u on the edges that the ray crosses in one column of cells.
+    struct crossing {
+        double smallest = infinity, largest = -infinity;
+        double certain = -infinity;  ///< the largest u that certainly lies before the point
+    };
+
+    double row_at(double column) const { return w_ + grid_.slope * column; }
+    int clamped_row(double y) const {
+        return static_cast<int>((std::min)((std::max)(y, 0.0), static_cast<double>(grid_.rows - 2)));
+    }
+
+    /// Whether the point is above the surface by more than the error of u.
+    bool lies_above() const {
+        const double y = row_at(x_);
+        if (!(x_ >= lattice_margin_ && x_ <= grid_.columns - 1 - lattice_margin_ && y >= lattice_margin_ &&
+              y <= grid_.rows - 1 - lattice_margin_))
+            return false;
+        for (const double x : {x_ - lattice_margin_, x_ + lattice_margin_})
+            for (int row = clamped_row(y - lattice_margin_); row <= clamped_row(y + lattice_margin_); ++row)
+                if (!(largest_u((std::min)(static_cast<int>(x), grid_.columns - 2), row, row) < u_ - horizon_.margin()))
+                    return false;
+        return true;
+    }
+    /// The largest u of the corners of some cells of a column.
+    double largest_u(int column, int first_row, int last_row) const {
+        const float* const here = horizon_.u().column(column);
+        const float* const ahead = horizon_.u().column(column + 1);
+        float largest = grid_u::nothing;
+        for (int y = first_row; y <= last_row + 1; ++y) largest = (std::max)({largest, here[y], ahead[y]});
+        return static_cast<double>(largest);
     }
 
     /// Decides by the bounds of a column, once the ray has been followed down to it.

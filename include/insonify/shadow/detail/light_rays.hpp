@@ -30,11 +30,8 @@ class light_rays {
         } else {
             source_ = std::get<point_light>(light).position;
             is_point_light_ = true;
-            for (int i = 0; i < 3; ++i) {
-                insonify::detail::require(numeric::is_finite(source_[i]), "point_light.position", source_[i],
-                                          "finite coordinates");
-                light_reach_ = (std::max)(light_reach_, numeric::abs(source_[i]));
-            }
+            insonify::detail::require_finite("point_light.position", source_);
+            for (int i = 0; i < 3; ++i) light_reach_ = (std::max)(light_reach_, numeric::abs(source_[i]));
         }
     }
 
@@ -63,9 +60,9 @@ class light_rays {
         const glm::dvec3 normal = numeric::cross(b - a, c - a);
         // Measured from the nearest corner: the rounding error of a distant one may exceed the point's distance.
         const auto size = [](const glm::dvec3& d) { return numeric::abs(d.x) + numeric::abs(d.y) + numeric::abs(d.z); };
-        const glm::dvec3& some = size(a) <= size(b) ? a : b;
+        const glm::dvec3& nearer = size(a) <= size(b) ? a : b;
         const double along = numeric::dot(normal, to_light),
-                     behind = numeric::dot(normal, size(some) <= size(c) ? some : c);
+                     behind = numeric::dot(normal, size(nearer) <= size(c) ? nearer : c);
         const double sign = is_left ? 1 : -1;
         const double tolerance = 0x1p-40 * size(normal);
         if (!(sign * along > 0 && sign * behind > reach_ * tolerance)) return false;

@@ -21,6 +21,24 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
+/// Coordinates of a point of a plane along two axes.
+struct plane_axes {
+    glm::dvec2 origin{0};
+    glm::dvec2 x_of{0}, y_of{0};  ///< the first coordinate is dot(x_of, p - origin), the second alike
+
+    plane_axes() = default;
+    /// @param x, y  the axes; not parallel
+    plane_axes(const glm::dvec2& start, const glm::dvec2& x, const glm::dvec2& y)
+        : origin(start),
+          x_of(glm::dvec2(y.y, -y.x) / numeric::cross(x, y)),
+          y_of(glm::dvec2(-x.y, x.x) / numeric::cross(x, y)) {}
+
+    INSONIFY_INLINE glm::dvec2 operator()(const glm::dvec2& p) const {
+        const double dx = p.x - origin.x, dy = p.y - origin.y;
+        return {x_of.x * dx + x_of.y * dy, y_of.x * dx + y_of.y * dy};
+    }
+};
+
 /// A grid with axes along the light: X counts vertices along the axis closer to the light's direction, Y across it.
 /// Light travels towards larger X and Y, by `slope` steps of Y per step of X.
 struct lit_grid {
@@ -31,19 +49,12 @@ struct lit_grid {
     std::ptrdiff_t first = 0, along = 1, across = 1;  ///< index of vertex (0, 0) in the mesh, and strides
     std::ptrdiff_t pitch = 1;                         ///< vertices from one row of the mesh to the next
     std::ptrdiff_t first_cell = 0, cell_along = 1, cell_across = 1;  ///< the same for cells
-    glm::dvec2 x_of, y_of;  ///< X = dot(x_of, p - origin), Y alike, in the mesh's frame
-    glm::dvec2 origin{0};
+    plane_axes steps;                                                ///< (X, Y) of a position in the mesh's frame
 
-    lit_grid() = default;
     /// @param travel  direction in which light travels, in the mesh's frame; downwards
     lit_grid(const regular_grid& grid, const glm::dvec3& travel)
-        : columns(grid.columns),
-          rows(grid.rows),
-          is_rising(grid.is_rising),
-          across(grid.columns),
-          pitch(grid.columns),
-          origin(grid.origin) {
-        glm::dvec2 x = grid.right, y = grid.up;
+        : columns(grid.columns), rows(grid.rows), is_rising(grid.is_rising), across(grid.columns), pitch(grid.columns) {
+        glm::dvec2 origin = grid.origin, x = grid.right, y = grid.up;
         double travel_x = numeric::cross(glm::dvec2(travel), y) / numeric::cross(x, y),
                travel_y = numeric::cross(x, glm::dvec2(travel)) / numeric::cross(x, y);
         if (numeric::abs(travel_y) > numeric::abs(travel_x)) {
@@ -52,9 +63,9 @@ struct lit_grid {
             std::swap(x, y);
             std::swap(travel_x, travel_y);
         }
-        const auto turn = [&](double& steps, int count, std::ptrdiff_t& stride, glm::dvec2& axis) {
-            if (steps >= 0) return;
-            steps = -steps;
+        const auto turn = [&](double& travelled, int count, std::ptrdiff_t& stride, glm::dvec2& axis) {
+            if (travelled >= 0) return;
+            travelled = -travelled;
             first += (count - 1) * stride;
             origin += static_cast<double>(count - 1) * axis;
             stride = -stride;
@@ -65,18 +76,12 @@ struct lit_grid {
         turn(travel_y, rows, across, y);
         slope = travel_x > 0 ? travel_y / travel_x : 0;
         u_per_metre = travel_x / -travel.z;
-        x_of = glm::dvec2(y.y, -y.x) / numeric::cross(x, y);
-        y_of = glm::dvec2(-x.y, x.x) / numeric::cross(x, y);
-        // A row has one cell less than vertices.
+        steps = {origin, x, y};
+        // A row has one cell fewer than it has vertices.
         const auto cell_steps = [&](std::ptrdiff_t vertices) { return vertices - vertices / pitch; };
         first_cell = cell_steps(corner(0, 0));
         cell_along = cell_steps(along);
         cell_across = cell_steps(across);
-    }
-    /// (X, Y) of a position in the mesh's frame.
-    INSONIFY_INLINE glm::dvec2 steps(const glm::dvec2& p) const {
-        const double dx = p.x - origin.x, dy = p.y - origin.y;
-        return {x_of.x * dx + x_of.y * dy, y_of.x * dx + y_of.y * dy};
     }
     /// Index of the lowest-numbered vertex of a cell.
     INSONIFY_INLINE std::ptrdiff_t corner(int x, int y) const {

@@ -152,7 +152,7 @@ struct plane_triangles {
     }
 };
 
-/// Notes which tiles the triangles of a chunk touch, in order.
+/// Records which tiles the triangles of a chunk touch, in order.
 struct tile_assembly_kernel {
     const plane_vertex* vertices;
     const mesh_view& mesh;

@@ -13,6 +13,9 @@
 #include <insonify/shadow/detail/occluders.hpp>
 #include <insonify/shadow/detail/receivers.hpp>
 
+#include <bit>
+#include <limits>
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
@@ -43,10 +46,6 @@ struct occlusion_kernel {
     }
 
   private:
-    float height_error_of_receivers() const {
-        return 0x1.2p-24f * (std::max)(receivers.highest(), -receivers.lowest()) + error;
-    }
-
     template <int N>
     INSONIFY_INLINE void triangles(const std::uint32_t* ids, int count) const {
         using namespace insonify::detail;
@@ -76,8 +75,8 @@ struct occlusion_kernel {
         });
         floats low, high;
         range_of(low, high, t.a[2], t.b[2], t.c[2]);
-        const floats height_rounding =
-            0x1.2p-24f * (high > 0.0f - low ? high : 0.0f - low) + height_error_of_receivers();
+        const float receiver_rounding = 0x1.2p-24f * (std::max)(receivers.highest(), -receivers.lowest()) + error;
+        const floats height_rounding = 0x1.2p-24f * (high > 0.0f - low ? high : 0.0f - low) + receiver_rounding;
         missed |=
             ints(high + 2.0f * height_rounding < receivers.lowest()) & ints(t.state == 0.0f);  // below all receivers
         floats ab[3], ac[3];
@@ -97,11 +96,7 @@ struct occlusion_kernel {
         const unsigned some_skip = may_skip != skip::nothing ? movemask<N>(facing) : 0;
         // Counter-clockwise on the plane.
         const ints is_clockwise = ints(area < 0.0f);
-        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
-            const floats other = ab[axis];
-            ab[axis] = is_clockwise ? ac[axis] : ab[axis];
-            ac[axis] = is_clockwise ? other : ac[axis];
-        });
+        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA { exchange(is_clockwise, ab[axis], ac[axis]); });
         area = is_clockwise ? 0.0f - area : area;
         // The rounding error of a coordinate is half a unit in the last place, of a difference twice that; the two
         // products add their own.

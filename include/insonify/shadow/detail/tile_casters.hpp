@@ -26,13 +26,13 @@ class tile_casters {
     /// @param all  in order of casters
     tile_casters(std::size_t tiles, std::span<const covered_tile> all)
         : only_(tiles, none), starts_(tiles + 1, 0), casters_(all.size()) {
-        for (const covered_tile& o : all) {
-            ++starts_[o.tile + 1];
-            only_[o.tile] = only_[o.tile] == none ? o.caster : several;
+        for (const auto& [tile, caster] : all) {
+            ++starts_[tile + 1];
+            only_[tile] = only_[tile] == none ? caster : several;
         }
         for (std::size_t tile = 0; tile < tiles; ++tile) starts_[tile + 1] += starts_[tile];
         dynamic_array<std::size_t> next = starts_;
-        for (const covered_tile& o : all) casters_[next[o.tile]++] = o.caster;
+        for (const auto& [tile, caster] : all) casters_[next[tile]++] = caster;
     }
 
     /// In order.

@@ -103,15 +103,14 @@ class overhead_renderer {
                              : std::uint64_t{objects_.back().first_id} + objects_.back().placed.shape.triangles.size();
         const std::uint64_t end = first + placed.shape.triangles.size();
         require(end < shadow::invalid_id, "triangles of the scene", end, "below 2^32 - 1");
-        objects_.push_back({});
-        drawn_object& s = objects_.back();
-        s.placed = placed;
-        s.first_id = static_cast<std::uint32_t>(first);
-        s.caster = static_cast<std::uint32_t>(caster);
-        s.instance = instance;
-        s.seabed = seabed;
-        s.self_shadow_label = labels::of_caster(s.caster, scene_.targets.size());
-        s.whole = m;
+        const auto number = static_cast<std::uint32_t>(caster);
+        objects_.push_back({.placed = placed,
+                            .first_id = static_cast<std::uint32_t>(first),
+                            .caster = number,
+                            .instance = instance,
+                            .seabed = seabed,
+                            .whole = m,
+                            .self_shadow_label = labels::of_caster(number, scene_.targets.size())});
     }
 
     /// Samples the ground in view, and towards the light as far as its relief can cast a shadow into view.

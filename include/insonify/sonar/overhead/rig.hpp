@@ -15,8 +15,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 /// Camera and light above a position on the seabed. Image up is forward, image right is starboard. The light comes from
-/// the left, so shadows fall to the right, as in a starboard channel. What is less than a thousandth of the altitude
-/// below the camera, or above it, is not drawn; it still casts shadows.
+/// the left, so shadows fall to the right, as in a starboard channel. Geometry above the camera, or less than a
+/// thousandth of the altitude below it, is not drawn but casts shadows.
 ///
 /// A pixel is linear radiance: reflectivity x (intensity x law(sine of the grazing angle on the surface) x lit fraction
 /// + sky x fraction of the sky that the surface faces + ambient), clamped to 1.

@@ -15,9 +15,8 @@ inline bool is_within_outline(const placed_mesh& m, const glm::dvec3& p) {
         return p.x >= m.box.lower.x && p.x <= m.box.upper.x && p.y >= m.box.lower.y && p.y <= m.box.upper.y;
     const regular_grid& g = *m.grid;
     const glm::dvec2 from = glm::dvec2(p) - g.origin;
-    const double area = g.right.x * g.up.y - g.right.y * g.up.x;
-    const double column = (from.x * g.up.y - from.y * g.up.x) / area,
-                 row = (g.right.x * from.y - g.right.y * from.x) / area;
+    const double area = numeric::cross(g.right, g.up);
+    const double column = numeric::cross(from, g.up) / area, row = numeric::cross(g.right, from) / area;
     return column >= g.lattice_error && column <= g.columns - 1 - g.lattice_error && row >= g.lattice_error &&
            row <= g.rows - 1 - g.lattice_error;
 }

@@ -51,8 +51,8 @@ class sampled_bottom {
                 E& ex) {
         seabed::grid grid{.origin = position, .spacing = spacing, .band_limited = true};
         const auto along = [&](int axis) {
-            const double most = (ground.upper[axis] - ground.lower[axis]) / spacing + 4;
-            require(most <= 1 << 20, "vertices of the seabed along an axis", most,
+            const double vertices = (ground.upper[axis] - ground.lower[axis]) / spacing + 4;
+            require(vertices <= 1 << 20, "vertices of the seabed along an axis", vertices,
                     "at most 2^20; reduce `reach` or enlarge `cell`");
             // A vertex more on each side, so that normals in view are not one-sided differences.
             const double first = static_cast<double>(numeric::floor_to_int(ground.lower[axis] / spacing + 1e-6)) - 1;

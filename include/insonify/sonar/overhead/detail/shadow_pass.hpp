@@ -160,26 +160,23 @@ class shadow_pass {
         ex.bulk(lists.size(), [&](std::size_t i) { finish(lists[i], part(i)); });
     }
 
+    /// Adds the light that arrives at the pixels of points, and labels their shadows.
     void finish(const point_list& points, const shadow::results& light) {
-        for (std::size_t i = 0; i < points.size(); ++i)
-            finish(points.pixel(i), points.direct(i), i < points.facing, points.caster(i), light.lit[i],
-                   light.caster[i]);
-    }
-    /// Adds the light that arrives at a pixel, and labels its shadow.
-    /// @param direct  light that arrives if nothing blocks it
-    /// @param own     the caster that the point lies on
-    /// @param caster  the caster that blocks its light
-    void finish(std::size_t pixel, float direct, bool is_facing, std::uint32_t own, float lit, std::uint32_t caster) {
-        if (is_facing && lit > 0.0f) {
-            float& value = images_.picture.pixels()[pixel];
-            value = (std::min)(1.0f, value + lit * direct);
-        }
-        if constexpr (labelled) {
-            if (is_facing && !(lit < 0.5f)) return;
-            if (!is_facing && caster >= targets_) caster = own;
-            // Without a caster the point is not tested yet, or the light's centre is visible.
-            if (caster != shadow::invalid_id)
-                images_.labels.shadow.pixels()[pixel] = labels::of_caster(caster, targets_);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const std::size_t pixel = points.pixel(i);
+            const bool is_facing = i < points.facing;
+            if (is_facing && light.lit[i] > 0.0f) {
+                float& value = images_.picture.pixels()[pixel];
+                value = (std::min)(1.0f, value + light.lit[i] * points.direct(i));
+            }
+            if constexpr (labelled) {
+                if (is_facing && !(light.lit[i] < 0.5f)) continue;
+                std::uint32_t caster = light.caster[i];
+                if (!is_facing && caster >= targets_) caster = points.caster(i);  // its own mesh
+                // Without a caster the point is not tested yet, or the light's centre is visible.
+                if (caster != shadow::invalid_id)
+                    images_.labels.shadow.pixels()[pixel] = labels::of_caster(caster, targets_);
+            }
         }
     }
 
@@ -190,7 +187,7 @@ class shadow_pass {
     std::uint32_t targets_;
     tile_grid tiles_;
     std::size_t tile_pixels_;
-    std::size_t grain_;  ///< tiles of a batch
+    std::size_t grain_;  ///< tiles per call of the executor, whose points fit one batch
     isa level_;
 };
 

@@ -37,7 +37,6 @@ class pixel_marks {
         std::uint8_t& byte = bytes_(x / 8, y);
         byte = static_cast<std::uint8_t>((byte & ~(which << x % 8)) | (marks & which) << x % 8);
     }
-    void set(int x, int y) { set(x, y, 1, 1); }
     /// Clears a mark.
     /// @returns whether it was set
     bool take(int x, int y) {
@@ -111,7 +110,7 @@ class undecided_light {
     }
 
     /// Marks a pixel of a list again.
-    void mark(int x, int y) { marks_.set(x, y); }
+    void mark(int x, int y) { marks_.set(x, y, 1, 1); }
 
     /// Calls visit(pixel) for each undecided pixel of a tile and clears its mark.
     template <class Visit>
@@ -132,13 +131,13 @@ class undecided_light {
 
     /// Removes entries that are not valid.
     INSONIFY_RARE void remove_hidden(std::size_t tile) {
-        list& of = lists_[tile];
-        undecided_pixel* const start = pixels_.data() + of.start;
-        undecided_pixel *const end = start + of.count, *last = end;
+        list& entries = lists_[tile];
+        undecided_pixel* const start = pixels_.data() + entries.start;
+        undecided_pixel *const end = start + entries.count, *last = end;
         take(tile, [&](const undecided_pixel p) { *--last = p; });
-        of.count = static_cast<std::size_t>(std::copy(last, end, start) - start);
+        entries.count = static_cast<std::size_t>(std::copy(last, end, start) - start);
         const glm::ivec2 corner = tiles_.corner(tile);
-        for (std::size_t i = 0; i < of.count; ++i) mark(corner.x + start[i].column, corner.y + start[i].row);
+        for (std::size_t i = 0; i < entries.count; ++i) mark(corner.x + start[i].column, corner.y + start[i].row);
     }
 
     tile_grid tiles_{0, 0, 0};
