@@ -1213,6 +1213,13 @@ constexpr std::int64_t floor_to_int(double value) {
     return truncated - (static_cast<double>(truncated) > value ? 1 : 0);
 }
 
+/// The index of a cell of length 1 that holds a coordinate, or of the nearest of `count` cells; 0 for NaN.
+template <std::floating_point Real>
+constexpr int clamped_index(Real at, int count) {
+    const auto last = static_cast<Real>(count - 1);
+    return at > 0 ? static_cast<int>(at < last ? at : last) : 0;
+}
+
 /// Rounds a length, a positive normal number, to eight significant bits: its multiples are exact in double, so that
 /// nodes at multiples of it are the same in every row.
 inline double rounded_to_eight_bits(double length) {
@@ -6042,6 +6049,10 @@ class camera_view {
         detail::require_positive("camera.z_near", c.z_near);
         const double scale = 1 / numeric::tan(0.5 * static_cast<double>(c.field_of_view));
         scale_ = {static_cast<float>(scale / static_cast<double>(c.aspect)), static_cast<float>(scale)};
+        detail::require(numeric::is_finite(scale_.x) && numeric::is_finite(scale_.y),
+                        "cotangent of half of camera.field_of_view, over camera.aspect",
+                        scale / static_cast<double>(c.aspect),
+                        "one that a float can hold, with and without the aspect");
     }
 
     glm::vec4 operator()(const glm::vec3& point) const {
@@ -8060,9 +8071,9 @@ struct draw_options {
 /// degenerate and not_finite; one beyond a side of the picture is always counted as missed.
 struct draw_stats {
     std::uint64_t triangles = 0;   ///< submitted
-    std::uint64_t drawn = 0;       ///< filled into tiles
+    std::uint64_t drawn = 0;       ///< the others, whether or not they covered a pixel centre
     std::uint64_t culled = 0;      ///< faced the wrong way
-    std::uint64_t missed = 0;      ///< covered no pixel centre of the picture
+    std::uint64_t missed = 0;      ///< had no pixel centre of the picture in their bounding box
     std::uint64_t degenerate = 0;  ///< had no area on the sub-pixel grid
     std::uint64_t not_finite = 0;  ///< had a vertex that is NaN or infinite
     std::uint64_t clipped = 0;     ///< number of the above that a clipping plane cut
@@ -11715,11 +11726,14 @@ class overhead_geometry {
     /// Metres per pixel on level ground at the datum.
     double ground_sampling() const { return 2 * half_extent(0).x / rig_.size.x; }
 
+    /// A horizontal vector of the rig's frame, along the world's axes.
+    glm::dvec2 along_world(const glm::dvec2& v) const {
+        return {v.x * right_.x - v.y * right_.y, v.x * right_.y + v.y * right_.x};
+    }
     /// A corner of the picture's footprint at a height, relative to the rig's position, along the world's axes.
     glm::dvec2 corner(double height, int right, int up) const {
         const glm::dvec2 half = half_extent(height);
-        const glm::dvec2 p{right * half.x, up * half.y};
-        return {p.x * right_.x - p.y * right_.y, p.x * right_.y + p.y * right_.x};
+        return along_world({right * half.x, up * half.y});
     }
 
     /// Pinhole projection with reversed depth, z / w = z_near / distance: larger is nearer.
@@ -13128,7 +13142,8 @@ INSONIFY_ARITHMETIC_END
 //
 // Aggregates are examined by how many values initialize them: first with values that convert to float, to vectors of
 // float and to aggregates of those, then with values that convert to every other scalar and class as well. If the two
-// counts are equal, all members are made of floats.
+// counts are equal, and no value that converts to other types alone takes the place of one (as it does of a
+// std::optional), all members are made of floats.
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
@@ -13165,6 +13180,11 @@ struct converts_to_members {
         requires(consists_of_floats<T>() || !std::is_aggregate_v<T>)
     operator T() const;
 };
+struct converts_to_others {
+    template <class T>
+        requires(!consists_of_floats<T>() && (!std::is_aggregate_v<T> || std::is_union_v<T>))
+    operator T() const;
+};
 
 template <class Value, std::size_t>
 using repeated = Value;
@@ -13184,6 +13204,17 @@ constexpr std::size_t member_count() {
     else
         return member_count<V, Value, Count - 1>();
 }
+template <class V, std::size_t... I>
+constexpr bool is_initialized_by_another_after(std::index_sequence<I...>) {
+    return requires {
+        V{repeated<converts_to_floats, I>{}..., converts_to_others{}};
+    };
+}
+/// Whether a value that converts to other types alone initializes a member after some of the first I.
+template <class V, std::size_t... I>
+constexpr bool has_another_member(std::index_sequence<I...>) {
+    return (is_initialized_by_another_after<V>(std::make_index_sequence<I>{}) || ...);
+}
 
 template <class V>
 constexpr bool consists_of_floats() {
@@ -13195,7 +13226,9 @@ constexpr bool consists_of_floats() {
         return false;
     } else {
         constexpr std::size_t floats = sizeof(V) / sizeof(float);
-        return member_count<V, converts_to_floats, floats>() == member_count<V, converts_to_members, floats>();
+        constexpr std::size_t count = member_count<V, converts_to_floats, floats>();
+        return count == member_count<V, converts_to_members, floats>() &&
+               !has_another_member<V>(std::make_index_sequence<count + 1>{});
     }
 }
 
@@ -16440,11 +16473,8 @@ class receiver_cells {
     static constexpr std::size_t receivers_per_two_cells = 2;  // upper bound of the mean, until there are max_rows rows
     static constexpr std::size_t padding = 16;
 
-    int column(float at) const { return clamped((at - lower_.x) * scale_.x, columns_); }
-    int row(float at) const { return clamped((at - lower_.y) * scale_.y, rows_); }
-    static int clamped(float at, int count) {
-        return static_cast<int>((std::min)((std::max)(0.0f, at), static_cast<float>(count - 1)));
-    }
+    int column(float at) const { return numeric::clamped_index((at - lower_.x) * scale_.x, columns_); }
+    int row(float at) const { return numeric::clamped_index((at - lower_.y) * scale_.y, rows_); }
 
     int columns_ = 1, rows_ = 1;
     glm::vec2 lower_{0}, scale_{1}, cell_{1};
@@ -16729,24 +16759,21 @@ struct tiled_plane {
 
     /// The tile that contains a point of the plane, or the nearest one.
     std::size_t tile_of(const glm::dvec3& at) const {
-        const int column = clamped((at.x - tiles.lower.x) * scale.x, tiles.columns),
-                  row = clamped((at.y - tiles.lower.y) * scale.y, tiles.rows);
-        return static_cast<std::size_t>(row * tiles.columns + column);
+        const glm::ivec2 tile = clamped((glm::dvec2(at) - tiles.lower) * scale);
+        return static_cast<std::size_t>(tile.y * tiles.columns + tile.x);
     }
     /// First and last column and row of the tiles that a caster's box may touch.
     std::pair<glm::ivec2, glm::ivec2> tiles_under(const caster& c) const {
         const auto [lower, upper] =
             extent_on(plane, [&](int i) { return transform_point(c.placement, c.box.corner(i)); });
         // The margin is larger than rounding errors.
-        const auto tile = [&](const glm::dvec2& at, double margin) {
-            const glm::dvec2 in_tiles = (at - tiles.lower) * scale;
-            return glm::ivec2(clamped(in_tiles.x + margin, tiles.columns), clamped(in_tiles.y + margin, tiles.rows));
-        };
-        return {tile(lower, -0x1p-10), tile(upper, 0x1p-10)};
+        return {clamped((lower - tiles.lower) * scale - 0x1p-10), clamped((upper - tiles.lower) * scale + 0x1p-10)};
     }
 
   private:
-    static int clamped(double at, int count) { return static_cast<int>((std::min)((std::max)(0.0, at), count - 1.0)); }
+    glm::ivec2 clamped(const glm::dvec2& tile) const {
+        return {numeric::clamped_index(tile.x, tiles.columns), numeric::clamped_index(tile.y, tiles.rows)};
+    }
 };
 
 /// All planes of one light, with their tiles numbered consecutively: one plane for parallel light, or the six faces of
@@ -19358,9 +19385,7 @@ class seabed_probe {
             const glm::dvec2 in_picture(place(0.7548776662466927, rig.size.x) * 2 * view.half_extent(0).x,
                                         place(0.5698402909980532, rig.size.y) * 2 * view.half_extent(0).y);
             overhead chip = rig;
-            const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
-            chip.position +=
-                glm::dvec2(in_picture.x * cosine - in_picture.y * sine, in_picture.x * sine + in_picture.y * cosine);
+            chip.position += view.along_world(in_picture);
             if (view.has_point_light()) {  // the light keeps its position in the world
                 const glm::dvec3 light = view.light_position() - glm::dvec3(in_picture, 0);
                 const double level = numeric::length(glm::dvec2(light));
@@ -24243,13 +24268,16 @@ class map_occlusion {
         lowest_ = receivers.lower;
         const glm::dvec3 size = receivers.size();
         for (int i = 0; i < 2; ++i) tiles_per_metre_[i] = size[i] > 0 ? side / size[i] : 0;
+        // The filter averages texels beyond the receivers, too.
+        const double coarsest = (std::max)(texel, (std::max)(size.x, size.y) / (largest - 0.5));
+        const double border = radius > 0 ? (radius + 1) * coarsest : 0;
         insonify::detail::dynamic_array<detail::tile_casters::covered_tile> covered;
         for (std::size_t k = 0; k < casters_.size(); ++k) {
             const caster& c = casters_[k];
             bounding_box own = extent_of(c.box, c.placement, frame_);
             for (int i = 0; i < 2; ++i) {  // the rays of the receivers, with the heights of the whole caster
-                own.lower[i] = (std::max)(own.lower[i], receivers.lower[i]);
-                own.upper[i] = (std::min)(own.upper[i], receivers.upper[i]);
+                own.lower[i] = (std::max)(own.lower[i], receivers.lower[i] - border);
+                own.upper[i] = (std::min)(own.upper[i], receivers.upper[i] + border);
             }
             maps_.push_back({frame_, own, texel, largest});
             maps_.back().cast(c.mesh, c.placement, ex);
@@ -24294,10 +24322,7 @@ class map_occlusion {
     /// Column and row of the tile that contains a point (u, v), or of the nearest one.
     glm::ivec2 tile_of(const glm::dvec2& uv) const {
         glm::ivec2 tile;
-        for (int i = 0; i < 2; ++i) {
-            const double at = (uv[i] - lowest_[i]) * tiles_per_metre_[i];
-            tile[i] = static_cast<int>((std::min)((std::max)(0.0, at), side - 1.0));
-        }
+        for (int i = 0; i < 2; ++i) tile[i] = numeric::clamped_index((uv[i] - lowest_[i]) * tiles_per_metre_[i], side);
         return tile;
     }
 
@@ -27707,7 +27732,7 @@ inline namespace INSONIFY_ABI {
 struct occlusion_bounds {
     bounding_box box;  ///< contains all points, in the world; not empty
     double cell = 0;   ///< metres between vertices of the seabed; 0: 1/512 of the longest of the box's sides along x
-                       ///< and y and a thousandth of its height
+                       ///< and y, a thousandth of its height, and the height of the seabed above its lower side
     double reach = 8;  ///< largest distance towards the light, along either axis, at which the seabed is sampled, in
                        ///< multiples of the same length
 };
@@ -27744,7 +27769,7 @@ class scene_occlusion {
                    within.box.centre())),
           shapes_(shapes_of(s, light, within, shadow::radius_of(policy), ex)),
           targets_(s.targets.size()),
-          built_(policy.build(casters(), from_centre(light), local(within), ex)) {}
+          built_(policy.build(casters(), from_centre(light), local(s, within), ex)) {}
 
     /// @param at  in the world, within the bounds. This is not checked: the seabed is not sampled for points outside,
     ///            which may come out lit, as do points that are not finite
@@ -27787,7 +27812,7 @@ class scene_occlusion {
         detail::require(!within.box.empty() && numeric::is_finite(size.x + size.y + size.z),
                         "occlusion_bounds.box.size()", size.x + size.y + size.z, "that of a box around the points");
         seabed::detail::require_metres("occlusion_bounds.cell", within.cell);
-        detail::require_range("occlusion_bounds.reach", within.reach, 0, 1e6, "0 to 10^6 longer sides");
+        detail::require_range("occlusion_bounds.reach", within.reach, 0, 1e6, "0 to 10^6");
         seabed::detail::require_position("occlusion_bounds.box.lower", glm::dvec2(within.box.lower));
         seabed::detail::require_position("occlusion_bounds.box.upper", glm::dvec2(within.box.upper));
     }
@@ -27807,16 +27832,19 @@ class scene_occlusion {
             source->position -= glm::dvec3(centre_.x, centre_.y, 0);
         return light;
     }
-    shadow::point_bounds local(const occlusion_bounds& within) const {
+    shadow::point_bounds local(const scene& s, const occlusion_bounds& within) const {
         const glm::dvec3 away(centre_.x, centre_.y, 0);
-        return {{within.box.lower - away, within.box.upper - away}, 0.5 * cell_of(within)};
+        return {{within.box.lower - away, within.box.upper - away}, 0.5 * cell_of(s, within)};
     }
-    static double longer_side(const occlusion_bounds& within) {
+    /// The length that the default cell and the reach are given in. A box around one point has no sides: the ground
+    /// that may shade it goes by the height of the seabed.
+    static double length_of(const scene& s, const occlusion_bounds& within) {
         const glm::dvec3 size = within.box.size();
-        return (std::max)({size.x, size.y, 1e-3 * size.z, 1e-9});
+        const double length = (std::max)({size.x, size.y, 1e-3 * size.z, 1e-9});
+        return s.seabed.empty() ? length : (std::max)(length, s.seabed.prepare().range().highest - within.box.lower.z);
     }
-    static double cell_of(const occlusion_bounds& within) {
-        return within.cell > 0 ? within.cell : longer_side(within) / 512;
+    static double cell_of(const scene& s, const occlusion_bounds& within) {
+        return within.cell > 0 ? within.cell : length_of(s, within) / 512;
     }
 
     detail::dynamic_array<shadow::caster> casters() const {
@@ -27835,11 +27863,12 @@ class scene_occlusion {
         seabed::detail::require_finite(range);
         // Around the centre, as the light: the ground below the box, and towards the light.
         const glm::dvec2 centre(centre_);
-        const double cell = cell_of(within);
+        const double cell = cell_of(s, within);
         const detail::ground_rect below{glm::dvec2(within.box.lower) - centre - cell,
                                         glm::dvec2(within.box.upper) - centre + cell};
-        const detail::ground_rect ground = detail::casting_ground(
-            below, {within.box.lower.z, range.highest}, from_centre(light), radius, within.reach * longer_side(within));
+        const detail::ground_rect ground =
+            detail::casting_ground(below, {within.box.lower.z, range.highest}, from_centre(light), radius,
+                                   within.reach * length_of(s, within));
         const glm::dvec2 cells = (ground.upper - ground.lower) / cell;
         seabed::detail::require_vertices(cells.x * cells.y,
                                          "enlarge `occlusion_bounds.cell`, or reduce its box or its reach");

@@ -65,9 +65,7 @@ class seabed_probe {
             const glm::dvec2 in_picture(place(0.7548776662466927, rig.size.x) * 2 * view.half_extent(0).x,
                                         place(0.5698402909980532, rig.size.y) * 2 * view.half_extent(0).y);
             overhead chip = rig;
-            const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
-            chip.position +=
-                glm::dvec2(in_picture.x * cosine - in_picture.y * sine, in_picture.x * sine + in_picture.y * cosine);
+            chip.position += view.along_world(in_picture);
             if (view.has_point_light()) {  // the light keeps its position in the world
                 const glm::dvec3 light = view.light_position() - glm::dvec3(in_picture, 0);
                 const double level = numeric::length(glm::dvec2(light));

@@ -100,6 +100,13 @@ constexpr std::int64_t floor_to_int(double value) {
     return truncated - (static_cast<double>(truncated) > value ? 1 : 0);
 }
 
+/// The index of a cell of length 1 that holds a coordinate, or of the nearest of `count` cells; 0 for NaN.
+template <std::floating_point Real>
+constexpr int clamped_index(Real at, int count) {
+    const auto last = static_cast<Real>(count - 1);
+    return at > 0 ? static_cast<int>(at < last ? at : last) : 0;
+}
+
 /// Rounds a length, a positive normal number, to eight significant bits: its multiples are exact in double, so that
 /// nodes at multiples of it are the same in every row.
 inline double rounded_to_eight_bits(double length) {

@@ -65,6 +65,10 @@ class camera_view {
         detail::require_positive("camera.z_near", c.z_near);
         const double scale = 1 / numeric::tan(0.5 * static_cast<double>(c.field_of_view));
         scale_ = {static_cast<float>(scale / static_cast<double>(c.aspect)), static_cast<float>(scale)};
+        detail::require(numeric::is_finite(scale_.x) && numeric::is_finite(scale_.y),
+                        "cotangent of half of camera.field_of_view, over camera.aspect",
+                        scale / static_cast<double>(c.aspect),
+                        "one that a float can hold, with and without the aspect");
     }
 
     glm::vec4 operator()(const glm::vec3& point) const {

@@ -59,9 +59,9 @@ struct draw_options {
 /// degenerate and not_finite; one beyond a side of the picture is always counted as missed.
 struct draw_stats {
     std::uint64_t triangles = 0;   ///< submitted
-    std::uint64_t drawn = 0;       ///< filled into tiles
+    std::uint64_t drawn = 0;       ///< the others, whether or not they covered a pixel centre
     std::uint64_t culled = 0;      ///< faced the wrong way
-    std::uint64_t missed = 0;      ///< covered no pixel centre of the picture
+    std::uint64_t missed = 0;      ///< had no pixel centre of the picture in their bounding box
     std::uint64_t degenerate = 0;  ///< had no area on the sub-pixel grid
     std::uint64_t not_finite = 0;  ///< had a vertex that is NaN or infinite
     std::uint64_t clipped = 0;     ///< number of the above that a clipping plane cut

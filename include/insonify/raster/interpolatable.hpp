@@ -2,7 +2,8 @@
 //
 // Aggregates are examined by how many values initialize them: first with values that convert to float, to vectors of
 // float and to aggregates of those, then with values that convert to every other scalar and class as well. If the two
-// counts are equal, all members are made of floats.
+// counts are equal, and no value that converts to other types alone takes the place of one (as it does of a
+// std::optional), all members are made of floats.
 #pragma once
 
 #include <insonify/config.hpp>
@@ -46,6 +47,11 @@ struct converts_to_members {
         requires(consists_of_floats<T>() || !std::is_aggregate_v<T>)
     operator T() const;
 };
+struct converts_to_others {
+    template <class T>
+        requires(!consists_of_floats<T>() && (!std::is_aggregate_v<T> || std::is_union_v<T>))
+    operator T() const;
+};
 
 template <class Value, std::size_t>
 using repeated = Value;
@@ -65,6 +71,17 @@ constexpr std::size_t member_count() {
     else
         return member_count<V, Value, Count - 1>();
 }
+template <class V, std::size_t... I>
+constexpr bool is_initialized_by_another_after(std::index_sequence<I...>) {
+    return requires {
+        V{repeated<converts_to_floats, I>{}..., converts_to_others{}};
+    };
+}
+/// Whether a value that converts to other types alone initializes a member after some of the first I.
+template <class V, std::size_t... I>
+constexpr bool has_another_member(std::index_sequence<I...>) {
+    return (is_initialized_by_another_after<V>(std::make_index_sequence<I>{}) || ...);
+}
 
 template <class V>
 constexpr bool consists_of_floats() {
@@ -76,7 +93,9 @@ constexpr bool consists_of_floats() {
         return false;
     } else {
         constexpr std::size_t floats = sizeof(V) / sizeof(float);
-        return member_count<V, converts_to_floats, floats>() == member_count<V, converts_to_members, floats>();
+        constexpr std::size_t count = member_count<V, converts_to_floats, floats>();
+        return count == member_count<V, converts_to_members, floats>() &&
+               !has_another_member<V>(std::make_index_sequence<count + 1>{});
     }
 }
 

@@ -36,13 +36,16 @@ class map_occlusion {
         lowest_ = receivers.lower;
         const glm::dvec3 size = receivers.size();
         for (int i = 0; i < 2; ++i) tiles_per_metre_[i] = size[i] > 0 ? side / size[i] : 0;
+        // The filter averages texels beyond the receivers, too.
+        const double coarsest = (std::max)(texel, (std::max)(size.x, size.y) / (largest - 0.5));
+        const double border = radius > 0 ? (radius + 1) * coarsest : 0;
         insonify::detail::dynamic_array<detail::tile_casters::covered_tile> covered;
         for (std::size_t k = 0; k < casters_.size(); ++k) {
             const caster& c = casters_[k];
             bounding_box own = extent_of(c.box, c.placement, frame_);
             for (int i = 0; i < 2; ++i) {  // the rays of the receivers, with the heights of the whole caster
-                own.lower[i] = (std::max)(own.lower[i], receivers.lower[i]);
-                own.upper[i] = (std::min)(own.upper[i], receivers.upper[i]);
+                own.lower[i] = (std::max)(own.lower[i], receivers.lower[i] - border);
+                own.upper[i] = (std::min)(own.upper[i], receivers.upper[i] + border);
             }
             maps_.push_back({frame_, own, texel, largest});
             maps_.back().cast(c.mesh, c.placement, ex);
@@ -87,10 +90,7 @@ class map_occlusion {
     /// Column and row of the tile that contains a point (u, v), or of the nearest one.
     glm::ivec2 tile_of(const glm::dvec2& uv) const {
         glm::ivec2 tile;
-        for (int i = 0; i < 2; ++i) {
-            const double at = (uv[i] - lowest_[i]) * tiles_per_metre_[i];
-            tile[i] = static_cast<int>((std::min)((std::max)(0.0, at), side - 1.0));
-        }
+        for (int i = 0; i < 2; ++i) tile[i] = numeric::clamped_index((uv[i] - lowest_[i]) * tiles_per_metre_[i], side);
         return tile;
     }
 

@@ -21,7 +21,7 @@ inline namespace INSONIFY_ABI {
 struct occlusion_bounds {
     bounding_box box;  ///< contains all points, in the world; not empty
     double cell = 0;   ///< metres between vertices of the seabed; 0: 1/512 of the longest of the box's sides along x
-                       ///< and y and a thousandth of its height
+                       ///< and y, a thousandth of its height, and the height of the seabed above its lower side
     double reach = 8;  ///< largest distance towards the light, along either axis, at which the seabed is sampled, in
                        ///< multiples of the same length
 };
@@ -58,7 +58,7 @@ class scene_occlusion {
                    within.box.centre())),
           shapes_(shapes_of(s, light, within, shadow::radius_of(policy), ex)),
           targets_(s.targets.size()),
-          built_(policy.build(casters(), from_centre(light), local(within), ex)) {}
+          built_(policy.build(casters(), from_centre(light), local(s, within), ex)) {}
 
     /// @param at  in the world, within the bounds. This is not checked: the seabed is not sampled for points outside,
     ///            which may come out lit, as do points that are not finite
@@ -101,7 +101,7 @@ class scene_occlusion {
         detail::require(!within.box.empty() && numeric::is_finite(size.x + size.y + size.z),
                         "occlusion_bounds.box.size()", size.x + size.y + size.z, "that of a box around the points");
         seabed::detail::require_metres("occlusion_bounds.cell", within.cell);
-        detail::require_range("occlusion_bounds.reach", within.reach, 0, 1e6, "0 to 10^6 longer sides");
+        detail::require_range("occlusion_bounds.reach", within.reach, 0, 1e6, "0 to 10^6");
         seabed::detail::require_position("occlusion_bounds.box.lower", glm::dvec2(within.box.lower));
         seabed::detail::require_position("occlusion_bounds.box.upper", glm::dvec2(within.box.upper));
     }
@@ -121,16 +121,19 @@ class scene_occlusion {
             source->position -= glm::dvec3(centre_.x, centre_.y, 0);
         return light;
     }
-    shadow::point_bounds local(const occlusion_bounds& within) const {
+    shadow::point_bounds local(const scene& s, const occlusion_bounds& within) const {
         const glm::dvec3 away(centre_.x, centre_.y, 0);
-        return {{within.box.lower - away, within.box.upper - away}, 0.5 * cell_of(within)};
+        return {{within.box.lower - away, within.box.upper - away}, 0.5 * cell_of(s, within)};
     }
-    static double longer_side(const occlusion_bounds& within) {
+    /// The length that the default cell and the reach are given in. A box around one point has no sides: the ground
+    /// that may shade it goes by the height of the seabed.
+    static double length_of(const scene& s, const occlusion_bounds& within) {
         const glm::dvec3 size = within.box.size();
-        return (std::max)({size.x, size.y, 1e-3 * size.z, 1e-9});
+        const double length = (std::max)({size.x, size.y, 1e-3 * size.z, 1e-9});
+        return s.seabed.empty() ? length : (std::max)(length, s.seabed.prepare().range().highest - within.box.lower.z);
     }
-    static double cell_of(const occlusion_bounds& within) {
-        return within.cell > 0 ? within.cell : longer_side(within) / 512;
+    static double cell_of(const scene& s, const occlusion_bounds& within) {
+        return within.cell > 0 ? within.cell : length_of(s, within) / 512;
     }
 
     detail::dynamic_array<shadow::caster> casters() const {
@@ -149,11 +152,12 @@ class scene_occlusion {
         seabed::detail::require_finite(range);
         // Around the centre, as the light: the ground below the box, and towards the light.
         const glm::dvec2 centre(centre_);
-        const double cell = cell_of(within);
+        const double cell = cell_of(s, within);
         const detail::ground_rect below{glm::dvec2(within.box.lower) - centre - cell,
                                         glm::dvec2(within.box.upper) - centre + cell};
-        const detail::ground_rect ground = detail::casting_ground(
-            below, {within.box.lower.z, range.highest}, from_centre(light), radius, within.reach * longer_side(within));
+        const detail::ground_rect ground =
+            detail::casting_ground(below, {within.box.lower.z, range.highest}, from_centre(light), radius,
+                                   within.reach * length_of(s, within));
         const glm::dvec2 cells = (ground.upper - ground.lower) / cell;
         seabed::detail::require_vertices(cells.x * cells.y,
                                          "enlarge `occlusion_bounds.cell`, or reduce its box or its reach");

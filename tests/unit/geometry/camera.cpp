@@ -54,4 +54,6 @@ TEST_CASE("A degenerate camera is refused by name") {
     CHECK_THROWS_WITH(in::camera_view({.field_of_view = 4}), ContainsSubstring("camera.field_of_view is 4"));
     CHECK_THROWS_WITH(in::camera_view({.z_near = 0}), ContainsSubstring("camera.z_near is 0"));
     CHECK_THROWS_WITH(in::camera_view({.aspect = -1}), ContainsSubstring("camera.aspect is -1"));
+    CHECK_THROWS_WITH(in::camera_view({.field_of_view = 1e-39f}), ContainsSubstring("camera.field_of_view"));
+    CHECK_THROWS_WITH(in::camera_view({.aspect = 1e-40f}), ContainsSubstring("camera.aspect"));
 }

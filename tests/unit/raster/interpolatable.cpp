@@ -6,6 +6,7 @@
 #include <complex>
 #include <optional>
 #include <span>
+#include <variant>
 
 #include <glm/mat3x3.hpp>
 
@@ -58,6 +59,25 @@ struct textured {
 struct rgba {
     std::uint8_t r, g, b, a;
 };
+struct optional_member {
+    std::optional<float> a;
+};
+struct nested_optional {
+    float a;
+    optional_member b;
+    float c;
+};
+struct variant_member {
+    float a;
+    std::variant<float, int> b;
+};
+struct union_member {
+    union {
+        float a;
+        int b;
+    } either;
+    float c;
+};
 struct own_vector {
     own_vector() = default;
     own_vector(float a, float b) : x(a), y(b) {}
@@ -74,6 +94,8 @@ static_assert(in::interpolatable<std::array<float, 3>> && in::interpolatable<std
 static_assert(!in::interpolatable<std::span<float>> && !in::interpolatable<std::span<const float>> &&
               !in::interpolatable<in::image_view<float>>);
 static_assert(!in::interpolatable<std::optional<float>> && !in::interpolatable<textured>);
+static_assert(!in::interpolatable<optional_member> && !in::interpolatable<nested_optional> &&
+              !in::interpolatable<variant_member> && !in::interpolatable<union_member>);
 static_assert(!in::interpolatable<tail> && !in::interpolatable<rgba> && !in::interpolatable<own_vector>);
 
 }  // namespace

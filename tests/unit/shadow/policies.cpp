@@ -163,6 +163,23 @@ TEST_CASE("The edge of a map's shadow is off by half a texel of the points' spac
     }
 }
 
+TEST_CASE("pcf darkens a shadow that covers all points up to their bounds") {
+    in::mesh roof = sheet(0);
+    for (glm::vec3& p : roof.positions) p = {100.0f * p.x, 100.0f * p.y, 3};
+    const shadow::caster casters[] = {caster_of(roof, {})};
+    lit::point_list list;
+    for (const double x : {-1.0, -0.98, 0.0, 0.99, 1.0})
+        for (const double y : {-1.0, -0.97, 0.0, 0.98, 1.0})
+            for (const double z : {0.0, 1.0}) list.add({x, y, z});
+    for (const double elevation : {20.0, 70.0, 90.0})
+        for (const int radius : {1, 8}) {
+            const auto found = results_of(shadow::pcf{.radius = radius}, casters, parallel(17, elevation), list,
+                                          {{{-1, -1, 0}, {1, 1, 1}}, 0.02});
+            CAPTURE(elevation, radius);
+            CHECK(found.lit == std::vector<float>(list.size(), 0.0f));
+        }
+}
+
 TEST_CASE("pcf reports the first caster that blocks more than half of the light") {
     const in::mesh cube = to_mesh(in::cube{});
     const shadow::caster casters[] = {caster_of(cube, at({0, 0, 0.5}))};

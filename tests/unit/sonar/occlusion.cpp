@@ -101,6 +101,26 @@ TEST_CASE("A wall of seabed outside of the bounds shades points within height / 
     CHECK(blind.test(std::vector<glm::dvec3>{{-0.5, 0.3, 1e-3}}).lit[0] == 1);
 }
 
+TEST_CASE("Bounds around one point have the seabed that may shade it, anywhere in the world") {
+    const in::shadow::directional_light light{0, 0.12};
+    for (const double x : {0.0, 1e6}) {
+        in::scene s;
+        s.seabed = in::seabed::ripples{.wavelength = 4, .steepness = 0.2f};
+        const auto among = in::occlusion_of(s, light, {{{x - 2, -1, -0.5}, {x + 2, 1, 1}}, 0.01});
+        int dark = 0, differing = 0;
+        for (int i = 0; i < 60; ++i) {
+            const std::vector<glm::dvec3> point{{x - 2 + 0.066 * i, 0.3, 0.05}};
+            const float lit = in::occlusion_of(s, light, {{point[0], point[0]}}).test(point).lit[0];
+            dark += lit == 0;
+            differing += lit != among.test(point).lit[0];
+        }
+        CAPTURE(x);
+        CHECK(dark > 0);
+        CHECK(dark < 60);
+        CHECK(differing <= 1);  // by the seabed's cells
+    }
+}
+
 TEST_CASE("A wall of seabed outside of the bounds shades points of a point light, by similar triangles") {
     in::scene s;
     s.seabed = wall();

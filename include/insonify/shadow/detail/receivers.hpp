@@ -144,11 +144,8 @@ class receiver_cells {
     static constexpr std::size_t receivers_per_two_cells = 2;  // upper bound of the mean, until there are max_rows rows
     static constexpr std::size_t padding = 16;
 
-    int column(float at) const { return clamped((at - lower_.x) * scale_.x, columns_); }
-    int row(float at) const { return clamped((at - lower_.y) * scale_.y, rows_); }
-    static int clamped(float at, int count) {
-        return static_cast<int>((std::min)((std::max)(0.0f, at), static_cast<float>(count - 1)));
-    }
+    int column(float at) const { return numeric::clamped_index((at - lower_.x) * scale_.x, columns_); }
+    int row(float at) const { return numeric::clamped_index((at - lower_.y) * scale_.y, rows_); }
 
     int columns_ = 1, rows_ = 1;
     glm::vec2 lower_{0}, scale_{1}, cell_{1};

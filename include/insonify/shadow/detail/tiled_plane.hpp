@@ -37,24 +37,21 @@ struct tiled_plane {
 
     /// The tile that contains a point of the plane, or the nearest one.
     std::size_t tile_of(const glm::dvec3& at) const {
-        const int column = clamped((at.x - tiles.lower.x) * scale.x, tiles.columns),
-                  row = clamped((at.y - tiles.lower.y) * scale.y, tiles.rows);
-        return static_cast<std::size_t>(row * tiles.columns + column);
+        const glm::ivec2 tile = clamped((glm::dvec2(at) - tiles.lower) * scale);
+        return static_cast<std::size_t>(tile.y * tiles.columns + tile.x);
     }
     /// First and last column and row of the tiles that a caster's box may touch.
     std::pair<glm::ivec2, glm::ivec2> tiles_under(const caster& c) const {
         const auto [lower, upper] =
             extent_on(plane, [&](int i) { return transform_point(c.placement, c.box.corner(i)); });
         // The margin is larger than rounding errors.
-        const auto tile = [&](const glm::dvec2& at, double margin) {
-            const glm::dvec2 in_tiles = (at - tiles.lower) * scale;
-            return glm::ivec2(clamped(in_tiles.x + margin, tiles.columns), clamped(in_tiles.y + margin, tiles.rows));
-        };
-        return {tile(lower, -0x1p-10), tile(upper, 0x1p-10)};
+        return {clamped((lower - tiles.lower) * scale - 0x1p-10), clamped((upper - tiles.lower) * scale + 0x1p-10)};
     }
 
   private:
-    static int clamped(double at, int count) { return static_cast<int>((std::min)((std::max)(0.0, at), count - 1.0)); }
+    glm::ivec2 clamped(const glm::dvec2& tile) const {
+        return {numeric::clamped_index(tile.x, tiles.columns), numeric::clamped_index(tile.y, tiles.rows)};
+    }
 };
 
 /// All planes of one light, with their tiles numbered consecutively: one plane for parallel light, or the six faces of

@@ -108,11 +108,14 @@ class overhead_geometry {
     /// Metres per pixel on level ground at the datum.
     double ground_sampling() const { return 2 * half_extent(0).x / rig_.size.x; }
 
+    /// A horizontal vector of the rig's frame, along the world's axes.
+    glm::dvec2 along_world(const glm::dvec2& v) const {
+        return {v.x * right_.x - v.y * right_.y, v.x * right_.y + v.y * right_.x};
+    }
     /// A corner of the picture's footprint at a height, relative to the rig's position, along the world's axes.
     glm::dvec2 corner(double height, int right, int up) const {
         const glm::dvec2 half = half_extent(height);
-        const glm::dvec2 p{right * half.x, up * half.y};
-        return {p.x * right_.x - p.y * right_.y, p.x * right_.y + p.y * right_.x};
+        return along_world({right * half.x, up * half.y});
     }
 
     /// Pinhole projection with reversed depth, z / w = z_near / distance: larger is nearer.
