@@ -10964,12 +10964,8 @@ struct decibel_display {
     }
 };
 
-inline namespace INSONIFY_FLAGS {
-
 /// The scale on which automatic_display is linear.
 enum class display_scale { power, amplitude, decibels };
-
-}  // namespace INSONIFY_FLAGS
 
 /// A contrast stretch by the picture's own percentiles, like "auto" in survey software: about `black_fraction` of the
 /// finite pixels is black, and about `white_fraction` white. The decibel scale takes the percentiles of the positive
@@ -19344,8 +19340,6 @@ struct errors {
     double intensity = 0.05;  ///< of the linear picture, rms
 };
 
-inline namespace INSONIFY_FLAGS {
-
 /// The small pictures that `settings_for` draws.
 struct probe {
     int chips = 4;     ///< their number, distributed over the large picture
@@ -19355,8 +19349,6 @@ struct probe {
     double finest = 4;
     double usable_fraction = 0.7;  ///< of the budget that they may use; the rest is for other parts of the seabed
 };
-
-}  // namespace INSONIFY_FLAGS
 
 }  // namespace accuracy
 
@@ -22648,15 +22640,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-inline namespace INSONIFY_FLAGS {
-
 /// Random patches: where a noise exceeds a threshold.
 struct patches {
     float coverage = 0.5f;  ///< in [0, 1]: fraction of the area inside the outlines, over many patches
     float size = 12.0f;     ///< metres, > 0: scale of the patches
 };
-
-}  // namespace INSONIFY_FLAGS
 
 /// Points within a radius of a centre.
 struct disc {
@@ -27441,8 +27429,6 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-inline namespace INSONIFY_FLAGS {
-
 /// Levels in decibels, added to the seabed's. No variation if all are 0.
 struct bottom_tone {
     float drift = 0;              ///< rms of the drift, 0 to 30
@@ -27457,10 +27443,8 @@ struct bottom_tone {
     float patch_coverage = 0.3f;  ///< of the area, 0.01 to 0.99
     std::uint64_t seed = 1;
 
-    bool is_none() const { return drift == 0 && streaks == 0 && patches == 0; }
+    INSONIFY_MEMBER bool is_none() const { return drift == 0 && streaks == 0 && patches == 0; }
 };
-
-}  // namespace INSONIFY_FLAGS
 
 namespace detail::inline INSONIFY_FLAGS {
 

@@ -24,8 +24,6 @@ struct errors {
     double intensity = 0.05;  ///< of the linear picture, rms
 };
 
-inline namespace INSONIFY_FLAGS {
-
 /// The small pictures that `settings_for` draws.
 struct probe {
     int chips = 4;     ///< their number, distributed over the large picture
@@ -35,8 +33,6 @@ struct probe {
     double finest = 4;
     double usable_fraction = 0.7;  ///< of the budget that they may use; the rest is for other parts of the seabed
 };
-
-}  // namespace INSONIFY_FLAGS
 
 }  // namespace accuracy
 

@@ -17,15 +17,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-inline namespace INSONIFY_FLAGS {
-
 /// Random patches: where a noise exceeds a threshold.
 struct patches {
     float coverage = 0.5f;  ///< in [0, 1]: fraction of the area inside the outlines, over many patches
     float size = 12.0f;     ///< metres, > 0: scale of the patches
 };
-
-}  // namespace INSONIFY_FLAGS
 
 /// Points within a radius of a centre.
 struct disc {

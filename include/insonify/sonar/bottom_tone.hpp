@@ -18,8 +18,6 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-inline namespace INSONIFY_FLAGS {
-
 /// Levels in decibels, added to the seabed's. No variation if all are 0.
 struct bottom_tone {
     float drift = 0;              ///< rms of the drift, 0 to 30
@@ -34,10 +32,8 @@ struct bottom_tone {
     float patch_coverage = 0.3f;  ///< of the area, 0.01 to 0.99
     std::uint64_t seed = 1;
 
-    bool is_none() const { return drift == 0 && streaks == 0 && patches == 0; }
+    INSONIFY_MEMBER bool is_none() const { return drift == 0 && streaks == 0 && patches == 0; }
 };
-
-}  // namespace INSONIFY_FLAGS
 
 namespace detail::inline INSONIFY_FLAGS {
 

@@ -67,12 +67,8 @@ struct decibel_display {
     }
 };
 
-inline namespace INSONIFY_FLAGS {
-
 /// The scale on which automatic_display is linear.
 enum class display_scale { power, amplitude, decibels };
-
-}  // namespace INSONIFY_FLAGS
 
 /// A contrast stretch by the picture's own percentiles, like "auto" in survey software: about `black_fraction` of the
 /// finite pixels is black, and about `white_fraction` white. The decibel scale takes the percentiles of the positive

@@ -11,7 +11,8 @@ import subprocess
 import sys
 
 FLAGS = r"built\w*"
-PUBLIC = r"image<|image_view<|scene\b|frame<|mesh\b|overhead\b|pose\b|labels\b|rgb<|seabed::(?:any|ripples|rock|mud|flat)\b"
+PUBLIC = (r"image<|image_view<|scene\b|frame<|mesh\b|overhead\b|pose\b|labels\b|rgb<|bottom_tone\b|"
+          r"seabed::(?:any|ripples|rock|mud|flat|patches)\b")
 NEWER = re.compile(r"\s+[0-9a-f]+:\s+(?:v[a-z]\w+|andn|bzhi|mulx|rorx|sarx|shlx|shrx|[lt]zcnt|blsr)\s")
 ASSERTION = "__assert_fail"
 BY_COMPILER = re.compile(r"::(~?\w+)(?:<.*>)?::~?\1\(|::operator=\(")  # constructors, destructors and copies

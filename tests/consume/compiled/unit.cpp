@@ -27,3 +27,7 @@ in::image<float> JOIN(record_, UNIT)() {
 in::image<float> JOIN(filter_, UNIT)(const in::image<float>& picture, const quantization& quantize) {
     return picture | quantize | in::equalize{} | in::speckle{.variance = 0.1f, .seed = 7};
 }
+
+bool JOIN(reads_, UNIT)(in::display_scale scale, const in::bottom_tone& tone, const in::seabed::patches& where) {
+    return scale == in::display_scale::decibels && !tone.is_none() && where.coverage == 0.25f;
+}
