@@ -8254,7 +8254,7 @@ constexpr type type_of(sediment s) {
 }
 
 /// The row of a sediment.
-/// @throws invalid_input for a value that is no enumerator
+/// @throws invalid_input for a value that is not an enumerator
 constexpr const sediment_parameters& parameters_of(sediment s) {
     const std::size_t row = static_cast<std::size_t>(s) - std::size(relief_types);
     if (row >= std::size(sediments))
@@ -11587,8 +11587,8 @@ struct ping_numbers {
 
 /// A picture and its ground truth.
 ///
-/// In overhead pictures up is forward, and pixels are in [0, 1]. In side-scan pictures row i is ping i, column j is bin
-/// j, and pixels are intensities, 0 and above; see sonar_equation.hpp for their unit.
+/// In overhead pictures up is forward, and pixels are in [0, 1]. In side-scan pictures row i is ping rows.first + i
+/// rows.step, columns are bins, and pixels are intensities, 0 and above; see sonar_equation.hpp for their unit.
 template <class Labels>  // labels, unless stated: see fwd.hpp
 struct frame {
     insonify::image<float> image;  ///< linear
@@ -17347,7 +17347,7 @@ inline facet facet_at(image_view<const float> heights, double u, double v) {
     const double rise_y = lower ? opposite - side : side - corner;
     double height = corner + x.across * rise_x + y.across * rise_y;
     if (!numeric::is_finite(height)) {
-        // A vertex without data counts only where it has a share: the gap's border has heights.
+        // A vertex without data counts only where its weight is above 0: the gap's border has heights.
         const auto part = [](double share, double of) { return share > 0 ? share * of : 0.0; };
         const double larger = (std::max)(x.across, y.across), smaller = (std::min)(x.across, y.across);
         height = part(1 - larger, corner) + part(larger - smaller, side) + part(smaller, opposite);
@@ -20678,8 +20678,8 @@ struct aeroplane {
     float wing_position = 0.2f;  ///< of the root's leading edge ahead of the middle, share of the length, -0.1 to 0.4
     /// Of the tailplane, metres, 1.2 fuselage_diameter to the span.
     float tail_span = (std::max)(span * 0.37f, 1.2f * fuselage_diameter);
-    float fin_height = length * 2.1f / 14.4f;          ///< above the fuselage, metres, length / 50 to length / 3
-    int engines = 2;                                   ///< 0 to 4; odd ones sit in the nose, the others in the wings
+    float fin_height = length * 2.1f / 14.4f;  ///< above the fuselage, metres, length / 50 to length / 3
+    int engines = 2;  ///< 0 to 4; of an odd number one sits in the nose, the others in the wings
     float propeller_diameter = length * 3.4f / 14.4f;  ///< metres, length / 50 to length; 0: without propellers
 
     float port_wing = 1;       ///< share of the half span that is left, 0 to 1
@@ -23017,7 +23017,7 @@ inline esri_header read_esri_header(survey_reader& in) {
     for (;;) {
         const std::string_view key = in.peek();
         const bool is_key = !key.empty() && ((key[0] >= 'a' && key[0] <= 'z') || (key[0] >= 'A' && key[0] <= 'Z')) &&
-                            !same_word(key, "nan");
+                            !same_word(key, "nan") && !same_word(key, "inf") && !same_word(key, "infinity");
         if (!is_key) break;
         in.word();
         const auto is = [&](std::string_view word) { return same_word(key, word); };
@@ -23183,8 +23183,8 @@ inline heightfield parse_xyz(std::string_view text, double spacing, float scale 
     return field;
 }
 
-/// Closes gaps from their edges inwards: in each step, a missing vertex becomes the mean of those of its eight
-/// neighbours that were known before.
+/// Closes gaps from their edges inwards: in each step, a missing vertex becomes the mean of those of the
+/// eight adjacent ones that were known before.
 /// @param reach  number of steps: how many vertices a gap is closed by from each side; the rest stays NaN
 /// @throws invalid_input as `validate`, and for a reach below 0
 inline heightfield fill_gaps(heightfield field, int reach = 1 << 30) {
@@ -23196,15 +23196,15 @@ inline heightfield fill_gaps(heightfield field, int reach = 1 << 30) {
         int i, j;
         float value;
     };
-    const auto for_neighbors = [&](int i, int j, const auto& fn) {
+    const auto for_adjacent = [&](int i, int j, const auto& fn) {
         for (int y = (std::max)(j - 1, 0); y <= (std::min)(j + 1, height - 1); ++y)
             for (int x = (std::max)(i - 1, 0); x <= (std::min)(i + 1, width - 1); ++x) fn(x, y);
     };
-    // Only the neighbours of vertices that have just become known can be filled in a step.
+    // Only vertices adjacent to those that have just become known can be filled in a step.
     image<std::uint8_t> is_candidate(width, height, std::uint8_t{0});
     std::vector<vertex> candidates;
     const auto add_around = [&](int i, int j) {
-        for_neighbors(i, j, [&](int x, int y) {
+        for_adjacent(i, j, [&](int x, int y) {
             if (is_candidate(x, y) != 0 || numeric::is_finite(heights(x, y))) return;
             is_candidate(x, y) = 1;
             candidates.push_back({x, y, 0});
@@ -23216,7 +23216,7 @@ inline heightfield fill_gaps(heightfield field, int reach = 1 << 30) {
     for (int step = 0; step < reach && !candidates.empty(); ++step) {
         for (vertex& v : candidates) {
             float sum = 0, count = 0;
-            for_neighbors(v.i, v.j, [&](int x, int y) {
+            for_adjacent(v.i, v.j, [&](int x, int y) {
                 if (numeric::is_finite(heights(x, y))) sum += heights(x, y), count += 1;
             });
             v.value = sum / count;
@@ -23674,8 +23674,8 @@ struct flatten {
 };
 
 /// Smooths the ground by a cubic B-spline: of waves of one length nothing is left, of two lengths 17 %, of four 66 %.
-/// Beside gaps the ground stays as it is. Evaluates 16 rows of the ground for one: of overlapping ones, each takes 16
-/// times as long as the one before.
+/// Beside gaps the ground stays as it is. Each row takes 16 rows of the ground below it: n edits on top of each other
+/// take 16^n times as long.
 struct smooth {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 1;      ///< metres, > 0 and at most 2^17 lengths: with its edge
@@ -27006,7 +27006,7 @@ frame<Labels> flipped_vertically(frame<Labels> r) {
     };
     detail::for_each_image(flip, r);
     if constexpr (std::is_same_v<Labels, labels>) measure_targets(r.labels);
-    r.rows.first += static_cast<std::int64_t>(r.image.height() - 1) * r.rows.step;
+    r.rows.first += static_cast<std::int64_t>((std::max)(r.image.height() - 1, 0)) * r.rows.step;
     r.rows.step = -r.rows.step;
     return r;
 }

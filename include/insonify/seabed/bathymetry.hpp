@@ -49,7 +49,7 @@ inline esri_header read_esri_header(survey_reader& in) {
     for (;;) {
         const std::string_view key = in.peek();
         const bool is_key = !key.empty() && ((key[0] >= 'a' && key[0] <= 'z') || (key[0] >= 'A' && key[0] <= 'Z')) &&
-                            !same_word(key, "nan");
+                            !same_word(key, "nan") && !same_word(key, "inf") && !same_word(key, "infinity");
         if (!is_key) break;
         in.word();
         const auto is = [&](std::string_view word) { return same_word(key, word); };
@@ -215,8 +215,8 @@ inline heightfield parse_xyz(std::string_view text, double spacing, float scale 
     return field;
 }
 
-/// Closes gaps from their edges inwards: in each step, a missing vertex becomes the mean of those of its eight
-/// neighbours that were known before.
+/// Closes gaps from their edges inwards: in each step, a missing vertex becomes the mean of those of the
+/// eight adjacent ones that were known before.
 /// @param reach  number of steps: how many vertices a gap is closed by from each side; the rest stays NaN
 /// @throws invalid_input as `validate`, and for a reach below 0
 inline heightfield fill_gaps(heightfield field, int reach = 1 << 30) {
@@ -228,15 +228,15 @@ inline heightfield fill_gaps(heightfield field, int reach = 1 << 30) {
         int i, j;
         float value;
     };
-    const auto for_neighbors = [&](int i, int j, const auto& fn) {
+    const auto for_adjacent = [&](int i, int j, const auto& fn) {
         for (int y = (std::max)(j - 1, 0); y <= (std::min)(j + 1, height - 1); ++y)
             for (int x = (std::max)(i - 1, 0); x <= (std::min)(i + 1, width - 1); ++x) fn(x, y);
     };
-    // Only the neighbours of vertices that have just become known can be filled in a step.
+    // Only vertices adjacent to those that have just become known can be filled in a step.
     image<std::uint8_t> is_candidate(width, height, std::uint8_t{0});
     std::vector<vertex> candidates;
     const auto add_around = [&](int i, int j) {
-        for_neighbors(i, j, [&](int x, int y) {
+        for_adjacent(i, j, [&](int x, int y) {
             if (is_candidate(x, y) != 0 || numeric::is_finite(heights(x, y))) return;
             is_candidate(x, y) = 1;
             candidates.push_back({x, y, 0});
@@ -248,7 +248,7 @@ inline heightfield fill_gaps(heightfield field, int reach = 1 << 30) {
     for (int step = 0; step < reach && !candidates.empty(); ++step) {
         for (vertex& v : candidates) {
             float sum = 0, count = 0;
-            for_neighbors(v.i, v.j, [&](int x, int y) {
+            for_adjacent(v.i, v.j, [&](int x, int y) {
                 if (numeric::is_finite(heights(x, y))) sum += heights(x, y), count += 1;
             });
             v.value = sum / count;

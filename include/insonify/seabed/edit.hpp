@@ -28,8 +28,8 @@ struct flatten {
 };
 
 /// Smooths the ground by a cubic B-spline: of waves of one length nothing is left, of two lengths 17 %, of four 66 %.
-/// Beside gaps the ground stays as it is. Evaluates 16 rows of the ground for one: of overlapping ones, each takes 16
-/// times as long as the one before.
+/// Beside gaps the ground stays as it is. Each row takes 16 rows of the ground below it: n edits on top of each other
+/// take 16^n times as long.
 struct smooth {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 1;      ///< metres, > 0 and at most 2^17 lengths: with its edge

@@ -37,7 +37,7 @@ inline facet facet_at(image_view<const float> heights, double u, double v) {
     const double rise_y = lower ? opposite - side : side - corner;
     double height = corner + x.across * rise_x + y.across * rise_y;
     if (!numeric::is_finite(height)) {
-        // A vertex without data counts only where it has a share: the gap's border has heights.
+        // A vertex without data counts only where its weight is above 0: the gap's border has heights.
         const auto part = [](double share, double of) { return share > 0 ? share * of : 0.0; };
         const double larger = (std::max)(x.across, y.across), smaller = (std::min)(x.across, y.across);
         height = part(1 - larger, corner) + part(larger - smaller, side) + part(smaller, opposite);

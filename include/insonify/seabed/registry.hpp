@@ -163,7 +163,7 @@ constexpr type type_of(sediment s) {
 }
 
 /// The row of a sediment.
-/// @throws invalid_input for a value that is no enumerator
+/// @throws invalid_input for a value that is not an enumerator
 constexpr const sediment_parameters& parameters_of(sediment s) {
     const std::size_t row = static_cast<std::size_t>(s) - std::size(relief_types);
     if (row >= std::size(sediments))

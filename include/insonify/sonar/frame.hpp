@@ -31,8 +31,8 @@ struct ping_numbers {
 
 /// A picture and its ground truth.
 ///
-/// In overhead pictures up is forward, and pixels are in [0, 1]. In side-scan pictures row i is ping i, column j is bin
-/// j, and pixels are intensities, 0 and above; see sonar_equation.hpp for their unit.
+/// In overhead pictures up is forward, and pixels are in [0, 1]. In side-scan pictures row i is ping rows.first + i
+/// rows.step, columns are bins, and pixels are intensities, 0 and above; see sonar_equation.hpp for their unit.
 template <class Labels>  // labels, unless stated: see fwd.hpp
 struct frame {
     insonify::image<float> image;  ///< linear

@@ -47,6 +47,12 @@ TEST_CASE("An Esri grid may state the centre of its corner cell, with any letter
     CHECK(field.heights(1, 1) == 2);
     CHECK(missing(field.heights(0, 0)));
     CHECK(field.heights(1, 0) == 4);
+    for (const std::string first : {"nan", "inf", "-inf", "Infinity"}) {
+        const auto without =
+            sb::parse_esri_grid("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n" + first + " 4\n5 6");
+        CHECK(missing(without.heights(0, 1)));
+        CHECK(without.heights(1, 1) == 4);
+    }
 }
 
 TEST_CASE("Text that is not an Esri grid is refused with the line and the reason") {

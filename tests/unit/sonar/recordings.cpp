@@ -31,6 +31,7 @@ TEST_CASE("Row i is ping i in every recording, the first on top; flipped_vertica
     CHECK(turned.labels.targets[0].box.y0 == 40 - 10 - drawn.labels.targets[0].box.height());
     CHECK((turned.rows.first == 39 && turned.rows.step == -1));
     CHECK(std::equal(turned.image.row(39).begin(), turned.image.row(39).end(), drawn.image.row(0).begin()));
+    CHECK(in::flipped_vertically(in::frame<in::no_labels>{}).rows.first == 0);
     // Speckle follows the numbers.
     const in::seabed_speckle speckle{.seed = 3};
     CHECK(in::flipped_vertically(in::with_speckle(drawn, speckle)).image == in::with_speckle(turned, speckle).image);

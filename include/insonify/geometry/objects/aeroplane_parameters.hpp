@@ -29,8 +29,8 @@ struct aeroplane {
     float wing_position = 0.2f;  ///< of the root's leading edge ahead of the middle, share of the length, -0.1 to 0.4
     /// Of the tailplane, metres, 1.2 fuselage_diameter to the span.
     float tail_span = (std::max)(span * 0.37f, 1.2f * fuselage_diameter);
-    float fin_height = length * 2.1f / 14.4f;          ///< above the fuselage, metres, length / 50 to length / 3
-    int engines = 2;                                   ///< 0 to 4; odd ones sit in the nose, the others in the wings
+    float fin_height = length * 2.1f / 14.4f;  ///< above the fuselage, metres, length / 50 to length / 3
+    int engines = 2;  ///< 0 to 4; of an odd number one sits in the nose, the others in the wings
     float propeller_diameter = length * 3.4f / 14.4f;  ///< metres, length / 50 to length; 0: without propellers
 
     float port_wing = 1;       ///< share of the half span that is left, 0 to 1

@@ -37,7 +37,7 @@ frame<Labels> flipped_vertically(frame<Labels> r) {
     };
     detail::for_each_image(flip, r);
     if constexpr (std::is_same_v<Labels, labels>) measure_targets(r.labels);
-    r.rows.first += static_cast<std::int64_t>(r.image.height() - 1) * r.rows.step;
+    r.rows.first += static_cast<std::int64_t>((std::max)(r.image.height() - 1, 0)) * r.rows.step;
     r.rows.step = -r.rows.step;
     return r;
 }
