@@ -2835,7 +2835,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail {
 
-/// Members behave like those of std::vector with the same names, up to what they say; `append` inserts a range at the
+/// Members behave like those of std::vector with the same names, except where noted; `append` inserts a range at the
 /// end.
 template <class T>
 class dynamic_array {
@@ -23016,8 +23016,9 @@ inline esri_header read_esri_header(survey_reader& in) {
     bool has_x = false, has_y = false, corner_x = false, corner_y = false;
     for (;;) {
         const std::string_view key = in.peek();
+        double height;
         const bool is_key = !key.empty() && ((key[0] >= 'a' && key[0] <= 'z') || (key[0] >= 'A' && key[0] <= 'Z')) &&
-                            !same_word(key, "nan") && !same_word(key, "inf") && !same_word(key, "infinity");
+                            !insonify::detail::parse_number(key, height);  // nan is a height
         if (!is_key) break;
         in.word();
         const auto is = [&](std::string_view word) { return same_word(key, word); };
@@ -23183,8 +23184,8 @@ inline heightfield parse_xyz(std::string_view text, double spacing, float scale 
     return field;
 }
 
-/// Closes gaps from their edges inwards: in each step, a missing vertex becomes the mean of those of the
-/// eight adjacent ones that were known before.
+/// Closes gaps from their edges inwards: in each step, a missing vertex becomes the mean of those of the eight
+/// adjacent ones that were known before.
 /// @param reach  number of steps: how many vertices a gap is closed by from each side; the rest stays NaN
 /// @throws invalid_input as `validate`, and for a reach below 0
 inline heightfield fill_gaps(heightfield field, int reach = 1 << 30) {
@@ -24256,7 +24257,7 @@ class map_occlusion {
         lowest_ = receivers.lower;
         const glm::dvec3 size = receivers.size();
         for (int i = 0; i < 2; ++i) tiles_per_metre_[i] = size[i] > 0 ? side / size[i] : 0;
-        // The filter averages texels beyond the receivers, too.
+        // A filter also averages texels beyond the receivers. The nearest texel never lies there.
         const double coarsest = (std::max)(texel, (std::max)(size.x, size.y) / (largest - 0.5));
         const double border = radius > 0 ? (radius + 1) * coarsest : 0;
         insonify::detail::dynamic_array<detail::tile_casters::covered_tile> covered;
@@ -27751,9 +27752,10 @@ class scene_occlusion {
                     const Shadow& policy, E& ex)
         : centre_((validate(s), detail::require_numbered_targets(s), require_box(within), require_light(light),
                    within.box.centre())),
+          ground_(sampling_of(s, within)),
           shapes_(shapes_of(s, light, within, shadow::radius_of(policy), ex)),
           targets_(s.targets.size()),
-          built_(policy.build(casters(), from_centre(light), local(s, within), ex)) {}
+          built_(policy.build(casters(), from_centre(light), local(within), ex)) {}
 
     /// @param at  in the world, within the bounds. This is not checked: the seabed is not sampled for points outside,
     ///            which may come out lit, as do points that are not finite
@@ -27787,6 +27789,12 @@ class scene_occlusion {
         affine placement;  ///< into a frame around the centre of the bounds, over the datum
     };
 
+    /// How the seabed is sampled.
+    struct sampling {
+        seabed::height_range range{};  ///< of its heights
+        double cell, reach;            ///< metres
+    };
+
     static void require_box(const occlusion_bounds& within) {
         for (const auto& [name, corner] : {std::pair{"occlusion_bounds.box.lower", within.box.lower},
                                            std::pair{"occlusion_bounds.box.upper", within.box.upper}})
@@ -27816,19 +27824,21 @@ class scene_occlusion {
             source->position -= glm::dvec3(centre_.x, centre_.y, 0);
         return light;
     }
-    shadow::point_bounds local(const scene& s, const occlusion_bounds& within) const {
+    shadow::point_bounds local(const occlusion_bounds& within) const {
         const glm::dvec3 away(centre_.x, centre_.y, 0);
-        return {{within.box.lower - away, within.box.upper - away}, 0.5 * cell_of(s, within)};
+        return {{within.box.lower - away, within.box.upper - away}, 0.5 * ground_.cell};
     }
-    /// The length that the default cell and the reach are given in. A box around one point has no sides: the ground
-    /// that may shade it goes by the height of the seabed.
-    static double length_of(const scene& s, const occlusion_bounds& within) {
+    static sampling sampling_of(const scene& s, const occlusion_bounds& within) {
         const glm::dvec3 size = within.box.size();
-        const double length = (std::max)({size.x, size.y, 1e-3 * size.z, 1e-9});
-        return s.seabed.empty() ? length : (std::max)(length, s.seabed.prepare().range().highest - within.box.lower.z);
-    }
-    static double cell_of(const scene& s, const occlusion_bounds& within) {
-        return within.cell > 0 ? within.cell : length_of(s, within) / 512;
+        double length = (std::max)({size.x, size.y, 1e-3 * size.z, 1e-9});
+        seabed::height_range range;
+        if (!s.seabed.empty()) {
+            range = s.seabed.prepare().range();
+            seabed::detail::require_finite(range);
+            // A box around one point has no sides: the ground that may shade it goes by the height of the seabed.
+            length = (std::max)(length, range.highest - within.box.lower.z);
+        }
+        return {range, within.cell > 0 ? within.cell : length / 512, within.reach * length};
     }
 
     detail::dynamic_array<shadow::caster> casters() const {
@@ -27843,16 +27853,13 @@ class scene_occlusion {
         detail::dynamic_array<placed> all;
         for (const target& t : s.targets) all.push_back({t.shape, around_centre(to_world(t.placement))});
         if (s.seabed.empty()) return all;
-        const seabed::height_range range = s.seabed.prepare().range();
-        seabed::detail::require_finite(range);
         // Around the centre, as the light: the ground below the box, and towards the light.
         const glm::dvec2 centre(centre_);
-        const double cell = cell_of(s, within);
+        const auto& [range, cell, reach] = ground_;
         const detail::ground_rect below{glm::dvec2(within.box.lower) - centre - cell,
                                         glm::dvec2(within.box.upper) - centre + cell};
         const detail::ground_rect ground =
-            detail::casting_ground(below, {within.box.lower.z, range.highest}, from_centre(light), radius,
-                                   within.reach * length_of(s, within));
+            detail::casting_ground(below, {within.box.lower.z, range.highest}, from_centre(light), radius, reach);
         const glm::dvec2 cells = (ground.upper - ground.lower) / cell;
         seabed::detail::require_vertices(cells.x * cells.y,
                                          "enlarge `occlusion_bounds.cell`, or reduce its box or its reach");
@@ -27866,6 +27873,7 @@ class scene_occlusion {
     }
 
     glm::dvec3 centre_;
+    sampling ground_;
     detail::dynamic_array<placed> shapes_;  ///< the targets, then the seabed
     std::size_t targets_;
     Occlusion built_;

@@ -48,8 +48,9 @@ inline esri_header read_esri_header(survey_reader& in) {
     bool has_x = false, has_y = false, corner_x = false, corner_y = false;
     for (;;) {
         const std::string_view key = in.peek();
+        double height;
         const bool is_key = !key.empty() && ((key[0] >= 'a' && key[0] <= 'z') || (key[0] >= 'A' && key[0] <= 'Z')) &&
-                            !same_word(key, "nan") && !same_word(key, "inf") && !same_word(key, "infinity");
+                            !insonify::detail::parse_number(key, height);  // nan is a height
         if (!is_key) break;
         in.word();
         const auto is = [&](std::string_view word) { return same_word(key, word); };
@@ -215,8 +216,8 @@ inline heightfield parse_xyz(std::string_view text, double spacing, float scale 
     return field;
 }
 
-/// Closes gaps from their edges inwards: in each step, a missing vertex becomes the mean of those of the
-/// eight adjacent ones that were known before.
+/// Closes gaps from their edges inwards: in each step, a missing vertex becomes the mean of those of the eight
+/// adjacent ones that were known before.
 /// @param reach  number of steps: how many vertices a gap is closed by from each side; the rest stays NaN
 /// @throws invalid_input as `validate`, and for a reach below 0
 inline heightfield fill_gaps(heightfield field, int reach = 1 << 30) {

@@ -36,7 +36,7 @@ class map_occlusion {
         lowest_ = receivers.lower;
         const glm::dvec3 size = receivers.size();
         for (int i = 0; i < 2; ++i) tiles_per_metre_[i] = size[i] > 0 ? side / size[i] : 0;
-        // The filter averages texels beyond the receivers, too.
+        // A filter also averages texels beyond the receivers. The nearest texel never lies there.
         const double coarsest = (std::max)(texel, (std::max)(size.x, size.y) / (largest - 0.5));
         const double border = radius > 0 ? (radius + 1) * coarsest : 0;
         insonify::detail::dynamic_array<detail::tile_casters::covered_tile> covered;

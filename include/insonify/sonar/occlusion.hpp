@@ -56,9 +56,10 @@ class scene_occlusion {
                     const Shadow& policy, E& ex)
         : centre_((validate(s), detail::require_numbered_targets(s), require_box(within), require_light(light),
                    within.box.centre())),
+          ground_(sampling_of(s, within)),
           shapes_(shapes_of(s, light, within, shadow::radius_of(policy), ex)),
           targets_(s.targets.size()),
-          built_(policy.build(casters(), from_centre(light), local(s, within), ex)) {}
+          built_(policy.build(casters(), from_centre(light), local(within), ex)) {}
 
     /// @param at  in the world, within the bounds. This is not checked: the seabed is not sampled for points outside,
     ///            which may come out lit, as do points that are not finite
@@ -92,6 +93,12 @@ class scene_occlusion {
         affine placement;  ///< into a frame around the centre of the bounds, over the datum
     };
 
+    /// How the seabed is sampled.
+    struct sampling {
+        seabed::height_range range{};  ///< of its heights
+        double cell, reach;            ///< metres
+    };
+
     static void require_box(const occlusion_bounds& within) {
         for (const auto& [name, corner] : {std::pair{"occlusion_bounds.box.lower", within.box.lower},
                                            std::pair{"occlusion_bounds.box.upper", within.box.upper}})
@@ -121,19 +128,21 @@ class scene_occlusion {
             source->position -= glm::dvec3(centre_.x, centre_.y, 0);
         return light;
     }
-    shadow::point_bounds local(const scene& s, const occlusion_bounds& within) const {
+    shadow::point_bounds local(const occlusion_bounds& within) const {
         const glm::dvec3 away(centre_.x, centre_.y, 0);
-        return {{within.box.lower - away, within.box.upper - away}, 0.5 * cell_of(s, within)};
+        return {{within.box.lower - away, within.box.upper - away}, 0.5 * ground_.cell};
     }
-    /// The length that the default cell and the reach are given in. A box around one point has no sides: the ground
-    /// that may shade it goes by the height of the seabed.
-    static double length_of(const scene& s, const occlusion_bounds& within) {
+    static sampling sampling_of(const scene& s, const occlusion_bounds& within) {
         const glm::dvec3 size = within.box.size();
-        const double length = (std::max)({size.x, size.y, 1e-3 * size.z, 1e-9});
-        return s.seabed.empty() ? length : (std::max)(length, s.seabed.prepare().range().highest - within.box.lower.z);
-    }
-    static double cell_of(const scene& s, const occlusion_bounds& within) {
-        return within.cell > 0 ? within.cell : length_of(s, within) / 512;
+        double length = (std::max)({size.x, size.y, 1e-3 * size.z, 1e-9});
+        seabed::height_range range;
+        if (!s.seabed.empty()) {
+            range = s.seabed.prepare().range();
+            seabed::detail::require_finite(range);
+            // A box around one point has no sides: the ground that may shade it goes by the height of the seabed.
+            length = (std::max)(length, range.highest - within.box.lower.z);
+        }
+        return {range, within.cell > 0 ? within.cell : length / 512, within.reach * length};
     }
 
     detail::dynamic_array<shadow::caster> casters() const {
@@ -148,16 +157,13 @@ class scene_occlusion {
         detail::dynamic_array<placed> all;
         for (const target& t : s.targets) all.push_back({t.shape, around_centre(to_world(t.placement))});
         if (s.seabed.empty()) return all;
-        const seabed::height_range range = s.seabed.prepare().range();
-        seabed::detail::require_finite(range);
         // Around the centre, as the light: the ground below the box, and towards the light.
         const glm::dvec2 centre(centre_);
-        const double cell = cell_of(s, within);
+        const auto& [range, cell, reach] = ground_;
         const detail::ground_rect below{glm::dvec2(within.box.lower) - centre - cell,
                                         glm::dvec2(within.box.upper) - centre + cell};
         const detail::ground_rect ground =
-            detail::casting_ground(below, {within.box.lower.z, range.highest}, from_centre(light), radius,
-                                   within.reach * length_of(s, within));
+            detail::casting_ground(below, {within.box.lower.z, range.highest}, from_centre(light), radius, reach);
         const glm::dvec2 cells = (ground.upper - ground.lower) / cell;
         seabed::detail::require_vertices(cells.x * cells.y,
                                          "enlarge `occlusion_bounds.cell`, or reduce its box or its reach");
@@ -171,6 +177,7 @@ class scene_occlusion {
     }
 
     glm::dvec3 centre_;
+    sampling ground_;
     detail::dynamic_array<placed> shapes_;  ///< the targets, then the seabed
     std::size_t targets_;
     Occlusion built_;

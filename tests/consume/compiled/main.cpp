@@ -22,7 +22,9 @@ int main() {
     check(#unit, "record", record_##unit(), recorded); \
     for (const in::image<float>& picture : pictures) check(#unit, "filter", filter_##unit(picture, quantize), filtered);
     UNITS(CHECK_UNIT)
-#define CHECK_OPTIONS(unit) same = reads_##unit(in::display_scale::decibels, {.drift = 2}, {.coverage = 0.25f}) && same;
+#define CHECK_OPTIONS(unit)                                                            \
+    if (!reads_##unit(in::display_scale::decibels, {.drift = 2}, {.coverage = 0.25f})) \
+        std::puts("Unit " #unit " reads other options than it is given."), same = false;
     UNITS(CHECK_OPTIONS)
     if (same) std::puts("Every unit draws the same bytes.");
     return same ? 0 : 1;

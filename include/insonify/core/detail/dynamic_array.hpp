@@ -20,7 +20,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail {
 
-/// Members behave like those of std::vector with the same names, up to what they say; `append` inserts a range at the
+/// Members behave like those of std::vector with the same names, except where noted; `append` inserts a range at the
 /// end.
 template <class T>
 class dynamic_array {
